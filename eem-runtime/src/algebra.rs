@@ -10,5 +10,6 @@ pub(crate) mod threads;
 mod vector;
 
 pub(crate) use vector::{
-    add, combined, difference, dot, hypot, largest, length, norm, scaled, size, vector,
+    add, ascending, combined, difference, dot, hypot, indices, largest, length, norm, scaled, size,
+    vector,
 };

@@ -21,6 +21,7 @@ pub(crate) mod solid;
 pub(crate) mod solid_error;
 
 use core::any::TypeId;
+use std::borrow::Cow;
 
 use crate::algebra::memory::MemoryLimit;
 use crate::element::conduction::{Conduction, Conductor};
@@ -114,7 +115,7 @@ impl<const D: usize> Scene<D> {
     /// The numbering of its unknowns and state variables, and its paths of heat.
     pub(crate) fn numbering(&self) -> (Layout, Conduction) {
         let mut layout = self.layout();
-        let reservoirs = self.reservoir_temperatures();
+        let reservoirs = self.reservoir_temperatures().into_owned();
         let conduction = Conduction::new(&self.conductors, reservoirs, &layout);
         layout.couple(|slot| conduction.meets_slots(slot));
         (layout, conduction)
@@ -128,6 +129,20 @@ impl<const D: usize> Scene<D> {
         let is_mass: &mut dyn Iterator<Item = bool> = &mut is_mass;
         let shapes: &mut dyn Iterator<Item = Shape> = &mut shapes;
         Layout::new(D, is_mass, shapes)
+    }
+
+    /// The group of each element, and its index there.
+    pub(crate) fn places(&self) -> Vec<[u32; 2]> {
+        entry::places(&self.elements)
+    }
+
+    /// The capabilities of the elements of each group.
+    pub(crate) fn shapes(&self) -> Vec<Shape> {
+        let mut shapes = Vec::with_capacity(self.groups.len());
+        for group in &self.groups {
+            shapes.push(group.shape());
+        }
+        shapes
     }
 
     /// The nodes of its elements.
@@ -184,10 +199,10 @@ impl<const D: usize> Scene<D> {
     }
 
     /// The temperatures of all reservoirs at the start, K.
-    pub(crate) fn reservoir_temperatures(&self) -> Vec<f64> {
-        let mut temperatures = self.reservoirs.clone();
+    pub(crate) fn reservoir_temperatures(&self) -> Cow<'_, [f64]> {
+        let mut temperatures = Cow::Borrowed(&self.reservoirs[..]);
         for (index, temperature) in &self.loads.ovens {
-            temperatures[*index] = temperature(self.start);
+            temperatures.to_mut()[*index] = temperature(self.start);
         }
         temperatures
     }
@@ -205,9 +220,10 @@ impl<const D: usize> Scene<D> {
 
     /// The mass matrix. Anchors keep their masses as nodes of solids.
     pub(crate) fn masses(&self) -> Masses {
-        let (mut pairs, are_coupled) = (self.pairs.clone(), self.are_coupled());
-        for (index, node) in self.nodes.iter().enumerate() {
-            if node.mass.is_none() && are_coupled[index] {
+        let mut pairs = self.pairs.clone();
+        let nodes = self.nodes.iter().enumerate();
+        for ((index, node), is_coupled) in nodes.zip(self.are_coupled()) {
+            if node.mass.is_none() && is_coupled {
                 pairs.push(([index; 2], node.held));
             }
         }
@@ -216,13 +232,19 @@ impl<const D: usize> Scene<D> {
         Masses::new(masses, pairs)
     }
 
-    /// Which nodes are coupled by masses of solids.
+    /// Which nodes are coupled by masses of solids; empty if none is.
     fn are_coupled(&self) -> Vec<bool> {
-        let mut are_coupled = vec![false; self.nodes.len()];
-        for ([a, b], _) in &self.pairs {
-            (are_coupled[*a], are_coupled[*b]) = (true, true);
+        self.marked(self.pairs.iter().flat_map(|(nodes, _)| nodes))
+    }
+
+    /// Which nodes are among these; empty if none is.
+    fn marked<'a>(&self, nodes: impl Iterator<Item = &'a usize>) -> Vec<bool> {
+        let mut marks = Vec::new();
+        for &node in nodes {
+            marks.resize(self.nodes.len(), false);
+            marks[node] = true;
         }
-        are_coupled
+        marks
     }
 
     /// The handle of a node.

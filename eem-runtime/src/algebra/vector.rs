@@ -2,16 +2,31 @@
 
 use eem_material::number::scalar::Scalar;
 
-/// The vector with these entries: `core::array::from_fn` for numbers, in a tenth of its code.
+/// The vector with these entries: `core::array::from_fn` for numbers, in a thirtieth of its code.
 #[inline]
 pub(crate) fn vector<T: Copy + Default, const N: usize>(
     mut entry: impl FnMut(usize) -> T,
 ) -> [T; N] {
     let mut all = [T::default(); N];
-    for (index, number) in all.iter_mut().enumerate() {
-        *number = entry(index);
+    let mut index = 0;
+    while index < N {
+        all[index] = entry(index);
+        index += 1;
     }
     all
+}
+
+/// These indices in ascending order, each once. In less code than a set, which is compiled for each type of its entries.
+pub(crate) fn ascending<T: Ord>(mut indices: Vec<T>) -> Vec<T> {
+    indices.sort_unstable();
+    indices.dedup();
+    indices
+}
+
+/// Two indices as they are stored.
+#[inline]
+pub(crate) const fn indices([one, other]: [u32; 2]) -> [usize; 2] {
+    [one as usize, other as usize]
 }
 
 /// `factor a`.

@@ -74,6 +74,7 @@ pub(crate) use loose::{LooseElements, Parts};
 pub(crate) use point_step::{
     Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights,
 };
+pub(crate) use stiffness::Stiffness;
 #[cfg(feature = "gradients")]
 pub(crate) use terms::Terms;
 pub(crate) use view::{

@@ -36,7 +36,7 @@ impl Masses {
         masses: impl Iterator<Item = Option<f64>>,
         pairs: Vec<([usize; 2], f64)>,
     ) -> Self {
-        let mut own = Vec::new();
+        let mut own = Vec::with_capacity(masses.size_hint().0);
         for mass in masses {
             own.push(mass.unwrap_or(0.0));
         }

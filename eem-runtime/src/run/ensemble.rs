@@ -137,11 +137,13 @@ impl Ensemble<'_> {
     ) -> Vec<Result<T, MemberError>> {
         let member = |used: &mut Option<Simulation<D>>, input: &I| {
             let (scene, handles) = build(input);
-            let run = Simulation::in_memory_of(used.take(), scene, self.scheme, self.step);
-            let mut run = run.map_err(SceneError::from)?;
+            let run = Simulation::new_in(used, scene, self.scheme, self.step);
+            let run = run.map_err(SceneError::from)?;
             run.set_newton_settings(self.newton)?;
-            let result = observe(&mut run, handles, input);
-            *used = run.is_reusable().then_some(run);
+            let result = observe(run, handles, input);
+            if !run.is_reusable() {
+                *used = None;
+            }
             result
         };
         let stopped = AtomicBool::new(false);
@@ -237,9 +239,12 @@ fn map<I: Sync, W: Default, T: Send>(
         let found = taken.map(|(index, input)| (index, f(&mut own, index, input)));
         found.collect::<Vec<_>>()
     };
-    let mut found = on_each(threads, inputs.len(), work);
-    found.sort_by_key(|&(index, _)| index);
-    found.into_iter().map(|(_, result)| result).collect()
+    let mut results = Vec::new();
+    results.resize_with(inputs.len(), || None);
+    for (index, result) in on_each(threads, inputs.len(), work) {
+        results[index] = Some(result);
+    }
+    results.into_iter().flatten().collect()
 }
 
 /// What `work` returns on each of these threads; it is called at most `most` times.

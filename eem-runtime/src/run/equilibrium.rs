@@ -3,13 +3,12 @@
 mod heat;
 pub(crate) mod motion;
 
-use std::collections::BTreeSet;
-
+use crate::algebra::ascending;
 use crate::element::conduction::Conduction;
 use crate::element::conjugates::{Conjugates, OneSet, PointRule};
 #[cfg(not(test))]
 use crate::element::group::springs::of_dimension;
-use crate::element::group::{Group, Placed, StepView};
+use crate::element::group::{Placed, StepView};
 use crate::element::handle::Node;
 use crate::element::layout::Layout;
 use crate::element::loads::{Prescribed, StepLoads};
@@ -267,12 +266,11 @@ impl<const D: usize> Scene<D> {
         let systems = Systems::new(scheme, elements, &conduction, &rockets, self.memory_limit);
         let systems = systems.map_err(|error| refuse(vec![error.into()]))?;
         let nodes = &ends;
-        let groups = self.groups.iter().map(|group| {
-            let placed = Placed { nodes, layout };
-            let by = Conjugates::One(OneSet::Point(PointRule::Rest));
-            group.duplicate().build(by, placed)
-        });
-        let mut groups: Vec<Box<dyn Group<D>>> = groups.collect();
+        let by = Conjugates::One(OneSet::Point(PointRule::Rest));
+        let mut groups = Vec::with_capacity(self.groups.len());
+        for group in &self.groups {
+            groups.push(group.duplicate().build(by, Placed { nodes, layout }));
+        }
         let mut errors = Vec::new();
         for group in &mut groups {
             let elements = group.elements_mut();
@@ -303,7 +301,7 @@ impl<const D: usize> Scene<D> {
 
     fn follow(
         &self,
-        rest: &mut AtRest<'_, D>,
+        rest: &mut AtRest<'_>,
         load_steps: u32,
         state: &State,
     ) -> Result<(State, EquilibriumReport), EquilibriumError> {
@@ -347,7 +345,7 @@ impl<const D: usize> Scene<D> {
         Ok((next, report))
     }
 
-    fn name(&self, rest: &AtRest<'_, D>, softest: &Softest) -> FreeMotion {
+    fn name(&self, rest: &AtRest<'_>, softest: &Softest) -> FreeMotion {
         let mut displacements = vec![0.0; self.nodes.len() * D];
         for (&node, by) in softest.nodes.iter().zip(softest.motion.chunks_exact(D)) {
             displacements[node * D..][..D].copy_from_slice(by);
@@ -386,11 +384,11 @@ impl<const D: usize> Scene<D> {
 
 /// The edges of all elements from their first node to the others, each once, as pairs of nodes.
 fn arms(elements: &[ElementEntry]) -> Vec<[usize; 2]> {
-    let mut arms = BTreeSet::new();
+    let mut arms = Vec::new();
     for entry in elements {
         if let [first, others @ ..] = &entry.nodes[..] {
             arms.extend(others.iter().map(|other| [*first, *other]));
         }
     }
-    Vec::from_iter(arms)
+    ascending(arms)
 }

@@ -144,20 +144,34 @@ impl<const D: usize> Ledger<D> {
 
     /// The name, value and unit of an entry that is not finite. The laws could not be checked with it.
     pub(crate) fn infinite_entry(&self) -> Option<(&'static str, f64, &'static str)> {
-        let energies = [
-            ("kinetic energy", self.kinetic_energy, "J"),
-            ("potential energy", self.potential_energy, "J"),
-            ("internal energy", self.internal_energy, "J"),
-            ("energy", self.energy, "J"),
-            ("entropy", self.entropy, "J/K"),
-        ];
-        let linear = self.linear_momentum.iter();
-        let linear = linear.map(|&value| ("linear momentum", value, "kg m/s"));
-        let angular = self.angular_momentum.iter();
-        let angular = angular.map(|&value| ("angular momentum", value, "kg m²/s"));
-        let mut all = energies.into_iter().chain(linear).chain(angular);
-        all.find(|(_, value, _)| !value.is_finite())
+        first_infinite(&[
+            ("kinetic energy", &[self.kinetic_energy], "J"),
+            ("potential energy", &[self.potential_energy], "J"),
+            ("internal energy", &[self.internal_energy], "J"),
+            ("energy", &[self.energy], "J"),
+            ("entropy", &[self.entropy], "J/K"),
+            ("linear momentum", self.linear_momentum.as_slice(), "kg m/s"),
+            (
+                "angular momentum",
+                self.angular_momentum.as_slice(),
+                "kg m²/s",
+            ),
+        ])
     }
+}
+
+/// The first value that is not finite, with its name and its unit.
+fn first_infinite(
+    all: &[(&'static str, &[f64], &'static str)],
+) -> Option<(&'static str, f64, &'static str)> {
+    for &(name, values, unit) in all {
+        for &value in values {
+            if !value.is_finite() {
+                return Some((name, value, unit));
+            }
+        }
+    }
+    None
 }
 
 /// `Σ p·v/2`, J, which is `Σ p²/2m` where masses do not couple nodes.

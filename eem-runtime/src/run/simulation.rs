@@ -57,7 +57,6 @@ use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
 use crate::step::timed::TimedLoad;
-use eem_material::number::compact::compact;
 use memory::{Automatic, Control, Unresolved};
 use start::{Needs, check_step, check_tolerance, find_entropies, initial_state};
 use stepper::{Memory, Stepper};
@@ -144,13 +143,14 @@ impl<const D: usize> fmt::Debug for Simulation<D> {
 }
 
 impl<const D: usize> Simulation<D> {
-    /// A simulation of a scene with steps of this size, s, or by a tolerance, in the memory of an earlier one if that fits.
+    /// A simulation of a scene with steps of this size, s, or by a tolerance, in the place of an earlier one, and in its memory if
+    /// that fits.
     fn begin(
+        slot: &mut Option<Self>,
         mut scene: Scene<D>,
         scheme: Scheme,
         (step, tolerance): (f64, Option<Tolerance>),
-        used: Option<Self>,
-    ) -> Result<Self, RefusedScene<D>> {
+    ) -> Result<&mut Self, RefusedScene<D>> {
         let needs = Needs::of(&scene);
         let in_use = needs.first(scheme);
         let mut errors = scene.check();
@@ -161,7 +161,7 @@ impl<const D: usize> Simulation<D> {
         if !errors.is_empty() {
             return Err(RefusedScene::new(scene, errors));
         }
-        let mut run = match Self::take(&mut scene, (scheme, in_use, needs), step, used) {
+        let run = match Self::take(slot, &mut scene, (scheme, in_use, needs), step) {
             Ok(run) => run,
             Err(errors) => return Err(RefusedScene::new(scene, errors)),
         };
@@ -174,12 +174,12 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// A simulation with the contents of a scene, without step control, unless its initial state is invalid.
-    fn take(
+    fn take<'s>(
+        slot: &'s mut Option<Self>,
         scene: &mut Scene<D>,
         (scheme, in_use, needs): (Scheme, Scheme, Needs),
         step: f64,
-        used: Option<Self>,
-    ) -> Result<Self, Vec<SceneError>> {
+    ) -> Result<&'s mut Self, Vec<SceneError>> {
         let ((mut layout, conduction), ends) = (scene.numbering(), scene.ends());
         let masses = scene.masses();
         let site = Site {
@@ -191,16 +191,16 @@ impl<const D: usize> Simulation<D> {
         };
         let begin = |old| initial_state(scene, &layout, Some(step), old);
         let (places, shapes, effort, memory, mut state, next);
-        if let Some(used) = used.filter(|used| used.fits(scene, in_use, &conduction))
+        slot.take_if(|used| !used.fits(scene, in_use, &conduction));
+        if let Some(used) = slot.take()
             && let Stepper::Newton(newton) = used.stepper
         {
             (places, shapes, effort) = (used.places, used.shapes, used.effort.renewed());
             (state, next) = (begin(Some(used.state))?, Some(used.next));
             memory = Memory::Used(newton);
         } else {
-            let all = scene.elements.iter();
-            places = all.map(|own| [own.group, own.place].map(compact)).collect();
-            shapes = scene.groups.iter().map(|group| group.shape()).collect();
+            places = scene.places();
+            shapes = scene.shapes();
             (effort, state, next) = (Effort::new(), begin(None)?, None);
             let systems = Memory::new(in_use, site, scene.memory_limit);
             memory = systems.map_err(|error| vec![error.into()])?;
@@ -210,10 +210,11 @@ impl<const D: usize> Simulation<D> {
         let (nodes, pairs) = (&mut scene.nodes, &mut scene.pairs);
         let entries = &mut scene.elements;
         let parts = (in_use, site);
-        let stepper = Stepper::new(groups, memory, parts, &mut state, |state, elements| {
-            let found = find_entropies(elements, state, site);
+        let stepper = Stepper::new(groups, memory, parts, &mut state, &mut |state, elements| {
+            find_entropies(elements, state, site)?;
             // The entries of the scene are large, and now contained in masses, state and groups.
-            found.map(|()| drop((mem::take(nodes), mem::take(pairs), mem::take(entries))))
+            drop((mem::take(nodes), mem::take(pairs), mem::take(entries)));
+            Ok(())
         });
         let stepper = stepper.map_err(|(errors, groups)| {
             scene.groups = groups;
@@ -232,7 +233,7 @@ impl<const D: usize> Simulation<D> {
                 next
             }
         };
-        Ok(Self {
+        Ok(slot.insert(Self {
             scene: scene.lineage.clone(),
             scheme,
             in_use,
@@ -263,7 +264,7 @@ impl<const D: usize> Simulation<D> {
             corrections: Corrections::none(),
             unresolved: Unresolved::none(),
             report: StepReport::none(),
-        })
+        }))
     }
 
     /// The error of a step of this size, with the iterations so far.

@@ -1,7 +1,7 @@
 //! The rules for a scene, and for its initial state: products of the user's numbers are finite, and prescribed motions
 //! and temperatures begin at the initial values.
 
-use std::collections::BTreeSet;
+use core::mem;
 
 use super::Scene;
 use crate::element::conduction::Conductor;
@@ -19,18 +19,17 @@ impl<const D: usize> Scene<D> {
     pub(crate) fn check(&self) -> Vec<SceneError> {
         let mut errors = self.errors.clone();
         // Nodes of an invalid solid are not checked: their errors would follow from its own.
-        let mut is_invalid = vec![false; self.nodes.len()];
-        for entry in self.elements.iter().filter(|entry| entry.group == INVALID) {
-            entry.nodes.iter().for_each(|&node| is_invalid[node] = true);
-        }
-        let is_coupled = self.are_coupled();
+        let invalid = self.elements.iter();
+        let invalid = invalid.filter(|entry| entry.group == INVALID);
+        let is_invalid = self.marked(invalid.flat_map(|entry| &entry.nodes));
         for (index, entry) in self.nodes.iter().enumerate() {
-            if !is_invalid[index] {
+            if is_invalid.get(index) != Some(&true) {
                 check_node(self.node_at(index), entry, &mut errors);
             }
         }
-        for (index, entry) in self.nodes.iter().enumerate() {
-            if is_coupled[index] && entry.momentum.is_some() {
+        let nodes = self.nodes.iter().enumerate();
+        for ((index, entry), is_coupled) in nodes.zip(self.are_coupled()) {
+            if is_coupled && entry.momentum.is_some() {
                 errors.push(SceneError::NodeOfSolid {
                     node: self.node_at(index),
                     quantity: "a momentum",
@@ -91,16 +90,18 @@ impl<const D: usize> Scene<D> {
             handle: handle.to_string(),
             quantity,
         };
-        let mut prescribed = BTreeSet::new();
+        let mut are_prescribed = Vec::new();
         for (element, _) in &self.loads.temperatures {
             self.check_thermal(*element, errors);
-            if !prescribed.insert(element.index()) {
+            are_prescribed.resize(self.elements.len(), false);
+            if mem::replace(&mut are_prescribed[element.index()], true) {
                 errors.push(twice(element, "the temperature"));
             }
         }
-        let mut moved = BTreeSet::new();
+        let mut are_moved = Vec::new();
         for (anchor, _) in &self.loads.motions {
-            if !moved.insert(anchor.index) {
+            are_moved.resize(self.nodes.len(), false);
+            if mem::replace(&mut are_moved[anchor.index], true) {
                 errors.push(twice(anchor, "the motion"));
             }
         }

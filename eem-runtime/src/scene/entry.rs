@@ -50,6 +50,13 @@ pub(crate) struct ElementEntry {
     pub(crate) place: usize,
 }
 
+/// The group of each element, and its index there.
+pub(super) fn places(elements: &[ElementEntry]) -> Vec<[u32; 2]> {
+    let places = elements.iter();
+    let places = places.map(|entry| [compact(entry.group), compact(entry.place)]);
+    places.collect()
+}
+
 /// The nodes of elements.
 pub(super) fn ends(elements: &[ElementEntry]) -> Ends {
     let mut ends = Ends::none();

@@ -1,11 +1,10 @@
 //! The loads of a scene: forces, moved anchors, prescribed temperatures.
 
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use nalgebra::SVector;
 
-use crate::algebra::vector;
+use crate::algebra::{ascending, vector};
 use crate::element::handle::{Element, Node};
 use crate::element::loads::PushLine;
 use eem_material::number::scalar::Scalar;
@@ -169,18 +168,22 @@ impl<const D: usize> Loads<D> {
 
     /// The anchors that functions of time move, in ascending order.
     pub(crate) fn moved_in_time(&self) -> Vec<usize> {
-        let mut moved = BTreeSet::new();
+        let mut moved = Vec::new();
         for (node, motion) in &self.motions {
             if motion.function().is_some() {
-                moved.insert(node.index);
+                moved.push(node.index);
             }
         }
-        Vec::from_iter(moved)
+        ascending(moved)
     }
 
     /// The lines of all rockets.
     pub(crate) fn rocket_lines(&self) -> Vec<PushLine> {
-        self.rockets.iter().map(|rocket| rocket.line).collect()
+        let mut lines = Vec::with_capacity(self.rockets.len());
+        for rocket in &self.rockets {
+            lines.push(rocket.line);
+        }
+        lines
     }
 
     /// Whether forces are functions of time.

@@ -3,8 +3,7 @@
 //! The forces of a step are constant over it, so that their work `F·Δq` is exact; a moved anchor does the work of the force
 //! it needs; a thermostat gives the heat that its element needs. A scheme with stages evaluates them at the time of each.
 
-use std::collections::BTreeSet;
-
+use crate::algebra::ascending;
 use crate::element::layout::Layout;
 use crate::element::loads::{Prescribed, Push, StepLoads, point};
 use crate::element::masses::Masses;
@@ -28,18 +27,19 @@ impl StepLoads {
         } else {
             layout.thermal
         };
-        let (mut thermal, mut moved, mut pushes) = (Vec::new(), BTreeSet::new(), Vec::new());
+        let (mut thermal, mut pushes) = (Vec::new(), Vec::new());
+        let mut moved = Vec::with_capacity(loads.motions.len());
         for (element, _) in &loads.temperatures {
             thermal.push(layout.elements[element.index()].thermal);
         }
         for (node, _) in &loads.motions {
-            moved.insert(node.index);
+            moved.push(node.index);
         }
         for line in loads.rocket_lines() {
             pushes.push(Push { line, thrust: 0.0 });
         }
         Self {
-            moved: Vec::from_iter(moved),
+            moved: ascending(moved),
             force: zeros(!loads.forces.is_empty()),
             total_force: zeros(!loads.forces.is_empty() || loads.have_weight()),
             pushes,

@@ -118,14 +118,14 @@ impl<const D: usize> Solver<D> {
             sets: [0; 2],
         };
         let nodes_with = |needed: bool| if needed { masses.len() } else { 0 };
-        let (mut nodes, mut interfaces) = (Vec::new(), Vec::new());
+        // Not more than there are: they are a good part of what a long chain takes.
+        let mut nodes = Vec::with_capacity(sets.len() * masses.iter().flatten().count());
+        let coupled = layout.coupled.iter().flatten().count();
+        let mut interfaces = Vec::with_capacity(sets.len() * coupled);
         for set in 0..sets.len() {
             let sites = sites.of_sets([set, set]);
-            // Not more than there are: they are a good part of what a long chain takes.
-            nodes.reserve_exact(Balance::all(masses, &sites).count());
-            nodes.extend(Balance::all(masses, &sites));
-            interfaces.reserve_exact(Interface::all(&sites).count());
-            interfaces.extend(Interface::all(&sites));
+            Balance::add_all(masses, &sites, &mut nodes);
+            Interface::add_all(&sites, &mut interfaces);
         }
         let coupling = Coupling::new(masses, &loads.moved, (&sites, sets.len()));
         let rockets = Rockets::new(scheme.tableau(), loads, masses.len(), &sites);

@@ -139,67 +139,72 @@ fn solve_compiled<const N: usize>(matrix: &mut [f64], b: &mut [f64]) -> Result<(
     // `exchange_from` finishes the solution itself: a return to `eliminate` would load rows again.
     match eliminate(a, right) {
         Ok(()) => substitute(a, right),
-        Err(row) => exchange_from(row, N, a.as_flattened_mut(), right)?,
+        Err(row) => {
+            exchange_from(row, N, a.as_flattened_mut(), right)?;
+            *a = [[0.0; N]; N];
+        }
     }
-    *a = [[0.0; N]; N];
     Ok(())
 }
 
 /// Replaces A by its upper factor, whose diagonal is one. The error is the first row without a good pivot.
 #[inline]
 fn eliminate<const N: usize>(a: &mut [[f64; N]; N], b: &mut [f64; N]) -> Result<(), usize> {
-    // Unrolled by hand, as the compiler does not unroll loops in loops: rows stay in registers.
-    eliminate_row(0, a, b)?;
-    eliminate_row(1, a, b)?;
-    eliminate_row(2, a, b)?;
-    eliminate_row(3, a, b)?;
-    eliminate_row(4, a, b)?;
-    eliminate_row(5, a, b)?;
-    eliminate_row(6, a, b)?;
-    eliminate_row(7, a, b)?;
-    eliminate_row(8, a, b)?;
-    eliminate_row(9, a, b)?;
-    eliminate_row(10, a, b)?;
-    eliminate_row(11, a, b)?;
-    Ok(())
+    // Unrolled by hand, as the compiler does not unroll loops in loops: rows stay in registers. Not with `?`, which takes four
+    // times the code.
+    let mut done = 0;
+    let mut goes_on = |row: usize| {
+        done = row;
+        eliminate_row(row, a, b)
+    };
+    let all_done = goes_on(0)
+        && goes_on(1)
+        && goes_on(2)
+        && goes_on(3)
+        && goes_on(4)
+        && goes_on(5)
+        && goes_on(6)
+        && goes_on(7)
+        && goes_on(8)
+        && goes_on(9)
+        && goes_on(10)
+        && goes_on(11);
+    if all_done { Ok(()) } else { Err(done) }
 }
 
 /// Eliminates the entries of a row before the diagonal, and divides the row by its diagonal entry. If that is no good
-/// pivot, the row does not change, and the error is its index.
+/// pivot, the row does not change, and the result is false.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "only then is the row a constant")]
-fn eliminate_row<const N: usize>(
-    at: usize,
-    a: &mut [[f64; N]; N],
-    b: &mut [f64; N],
-) -> Result<(), usize> {
+fn eliminate_row<const N: usize>(at: usize, a: &mut [[f64; N]; N], b: &mut [f64; N]) -> bool {
     if at >= N {
-        return Ok(());
+        return true;
     }
     let (mut row, mut right) = (a[at], b[at]);
     for k in 0..at {
         let factor = row[k];
-        let first = even(k + 1);
+        let first = first_of_pair(k + 1, N);
         subtract(&mut row[first..], factor, &a[k][first..]);
         right -= factor * b[k];
     }
     if !dominates(&row, at) {
-        return Err(at);
+        return false;
     }
     let inverse = row[at].recip();
-    let first = even(at + 1);
+    let first = first_of_pair(at + 1, N);
     for (entry, &value) in a[at][first..].iter_mut().zip(&row[first..]) {
         *entry = value * inverse;
     }
     b[at] = right * inverse;
-    Ok(())
+    true
 }
 
-/// Finds the solution from the upper factor, whose diagonal is one.
+/// Finds the solution from the upper factor, whose diagonal is one, and leaves zeros in its place.
 #[inline]
-fn substitute<const N: usize>(a: &[[f64; N]; N], b: &mut [f64; N]) {
-    for (row, entries) in a.iter().enumerate().rev() {
+fn substitute<const N: usize>(a: &mut [[f64; N]; N], b: &mut [f64; N]) {
+    for (row, entries) in a.iter_mut().enumerate().rev() {
         substitute_row(row, entries, b);
+        *entries = [0.0; N];
     }
 }
 
@@ -275,9 +280,9 @@ fn largest_behind(row: &[f64], diagonal: usize) -> Result<usize, Singular> {
     }
 }
 
-/// Entries are subtracted in pairs: from an even column on.
-const fn even(column: usize) -> usize {
-    column & !1
+/// The first column of the pair that contains a column. Entries are subtracted in pairs, of which the last one ends with the row.
+const fn first_of_pair(column: usize, columns: usize) -> usize {
+    column - (columns - column) % 2
 }
 
 /// Whether the diagonal entry of a row is a good pivot.

@@ -26,7 +26,8 @@ pub(super) fn balance<const D: usize>(
     layout: &Layout,
     temperatures: &mut [f64],
 ) -> Result<f64, EquilibriumError> {
-    let conduction = Conduction::new(&scene.conductors, scene.reservoir_temperatures(), layout);
+    let reservoirs = scene.reservoir_temperatures().into_owned();
+    let conduction = Conduction::new(&scene.conductors, reservoirs, layout);
     let slot_of = |element: usize| layout.elements[element].thermal;
     let mut is_fixed = vec![false; temperatures.len()];
     for (element, _) in &scene.loads.temperatures {

@@ -1,6 +1,5 @@
 //! Another scheme in the middle of a run.
 
-use core::convert::Infallible;
 use core::error::Error;
 use core::fmt;
 
@@ -102,13 +101,16 @@ impl<const D: usize> Simulation<D> {
         let elements = self.stepper.take_elements();
         let state = &mut self.state;
         let parts = (scheme, site);
-        let Ok(stepper) = Stepper::new(elements, memory, parts, state, |state, elements| {
+        let stepper = Stepper::new(elements, memory, parts, state, &mut |state, elements| {
             // As after a restart: each scheme evaluates energies in its own way.
             for group in elements {
                 group.find_energies(state);
             }
-            Ok::<(), Infallible>(())
+            Ok(())
         });
+        let Ok(stepper) = stepper else {
+            unreachable!("nothing was checked");
+        };
         self.stepper = stepper;
         if let Stepper::Explicit(explicit) = &mut self.stepper {
             explicit.set_motion_first(automatic.is_motion_first);

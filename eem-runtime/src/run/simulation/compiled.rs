@@ -8,6 +8,7 @@
 use super::event::Event;
 use super::stepper::Stepper;
 use super::{Simulation, Stepped};
+use crate::algebra::indices;
 use crate::algebra::memory::TooLarge;
 use crate::element::conduction::Conduction;
 #[cfg(not(test))]
@@ -21,7 +22,6 @@ use crate::step::control::Tolerance;
 use crate::step::error::StepError;
 use crate::step::newton::StepReport;
 use crate::step::scheme::Scheme;
-use eem_material::number::compact::compact;
 
 /// The kind of a step.
 #[derive(Clone, Copy, Debug)]
@@ -58,17 +58,28 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(scene: Scene<D>, scheme: Scheme, step: f64) -> Result<Self, RefusedScene<D>> {
-        Self::in_memory_of(None, scene, scheme, step)
+        Self::of_scene(scene, scheme, (step, None))
     }
 
-    /// The same, in the memory of an earlier run if that fits. Numbers are written anew, so that the bits are the same.
-    pub(crate) fn in_memory_of(
-        used: Option<Self>,
+    /// The same in the place of an earlier run, and in its memory if that fits. Numbers are written anew, so that the bits are the
+    /// same.
+    pub(crate) fn new_in(
+        slot: &mut Option<Self>,
         scene: Scene<D>,
         scheme: Scheme,
         step: f64,
+    ) -> Result<&mut Self, RefusedScene<D>> {
+        (Functions::get().new)(slot, scene, scheme, (step, None))
+    }
+
+    fn of_scene(
+        scene: Scene<D>,
+        scheme: Scheme,
+        steps: (f64, Option<Tolerance>),
     ) -> Result<Self, RefusedScene<D>> {
-        (Functions::get().new)(scene, scheme, (step, None), used)
+        let mut slot = None;
+        (Functions::get().new)(&mut slot, scene, scheme, steps)?;
+        Ok(slot.unwrap_or_else(|| unreachable!("it has begun")))
     }
 
     /// Checks a scene and prepares it for steps that a tolerance [controls](Self::control_steps). The first step follows from
@@ -103,7 +114,7 @@ impl<const D: usize> Simulation<D> {
         tolerance: Tolerance,
     ) -> Result<Self, RefusedScene<D>> {
         // The first step is found in the scene; 1 s until then.
-        (Functions::get().new)(scene, scheme, (1.0, Some(tolerance)), None)
+        Self::of_scene(scene, scheme, (1.0, Some(tolerance)))
     }
 
     /// Makes one step of the present size, or of the size that [step control](Self::control_steps) chooses.
@@ -157,11 +168,11 @@ type EndAtEvent<const D: usize> = fn(&mut Simulation<D>, &mut [Event<'_, D>], f6
 
 /// See [`begin`](Simulation::begin).
 type New<const D: usize> = fn(
+    &mut Option<Simulation<D>>,
     Scene<D>,
     Scheme,
     (f64, Option<Tolerance>),
-    Option<Simulation<D>>,
-) -> Result<Simulation<D>, RefusedScene<D>>;
+) -> Result<&mut Simulation<D>, RefusedScene<D>>;
 
 /// The functions in which the work of a simulation starts.
 pub(super) struct Functions<const D: usize> {
@@ -221,24 +232,39 @@ impl<const D: usize> Simulation<D> {
 
     /// Whether a scene with these paths of heat, stepped by this scheme, differs from that of this run in numbers only.
     pub(super) fn fits(&self, scene: &Scene<D>, scheme: Scheme, conduction: &Conduction) -> bool {
-        let masses = scene.nodes.iter().map(|node| node.mass.is_some());
-        let shapes = scene.groups.iter().map(|group| group.shape());
-        let mut elements = scene.elements.iter().zip(&self.places);
-        scheme == self.in_use
+        let are_alike = scheme == self.in_use
             && scene.pairs.is_empty()
             && scene.loads.are_at_most_weight()
             && scene.loads.have_weight() == self.loads.have_weight()
-            && masses.eq(self.masses.iter().map(|mass| mass.is_some()))
-            && shapes.eq(self.shapes.iter().copied())
-            && scene.elements.len() == self.places.len()
-            && elements.all(|(entry, &[group, place])| {
-                let nodes = self.stepper.elements(group as usize).nodes(place as usize);
-                [entry.group, entry.place].map(compact) == [group, place]
-                    && nodes
-                        .iter()
-                        .copied()
-                        .eq(entry.nodes.iter().map(|&node| compact(node)))
-            })
-            && conduction.joins_like(&self.conduction)
+            && scene.nodes.len() == self.masses.len()
+            && scene.groups.len() == self.shapes.len()
+            && scene.elements.len() == self.places.len();
+        if !are_alike {
+            return false;
+        }
+        for (index, node) in scene.nodes.iter().enumerate() {
+            if node.mass.is_some() != self.masses.get(index).is_some() {
+                return false;
+            }
+        }
+        for (index, group) in scene.groups.iter().enumerate() {
+            if group.shape() != self.shapes[index] {
+                return false;
+            }
+        }
+        for (index, entry) in scene.elements.iter().enumerate() {
+            let [group, place] = indices(self.places[index]);
+            let nodes = self.stepper.elements(group).nodes(place);
+            if [entry.group, entry.place] != [group, place] || !are_same(nodes, &entry.nodes) {
+                return false;
+            }
+        }
+        conduction.joins_like(&self.conduction)
     }
+}
+
+/// Whether stored indices of nodes are these.
+fn are_same(stored: &[u32], nodes: &[usize]) -> bool {
+    let mut both = stored.iter().zip(nodes);
+    stored.len() == nodes.len() && both.all(|(&own, &node)| own as usize == node)
 }

@@ -4,7 +4,9 @@ use super::Simulation;
 use super::stepper::Stepper;
 use crate::element::error::StateError;
 use crate::element::handle::{Element, Node};
+use crate::element::lineage::Lineage;
 use crate::element::loads::point;
+use crate::element::masses::Masses;
 use crate::run::checkpoint::{RestoreError, SavedLoads};
 use crate::scene::entry::infinite;
 use crate::scene::error::SceneError;
@@ -213,30 +215,16 @@ impl<const D: usize> Simulation<D> {
         if old.held != saved.held || saved.held.len() != saved.temperatures.len() {
             return Err(RestoreError::Loads);
         }
-        let kinds = [
-            (&saved.forced, saved.forces.as_chunks::<D>().0, true),
-            (&saved.moved, saved.velocities.as_chunks::<D>().0, false),
-        ];
-        for (nodes, values, mass) in kinds {
-            let masses = &self.masses;
-            let is_one = |&node: &usize| node < masses.len() && masses.get(node).is_some() == mass;
-            let are_finite = values.as_flattened().iter().all(|value| value.is_finite());
-            if nodes.len() != values.len() || !nodes.iter().all(is_one) || !are_finite {
-                return Err(RestoreError::Loads);
-            }
-        }
-        if !saved.temperatures.iter().all(|&theta| is_positive(theta)) {
+        let forces = (&saved.forced[..], &saved.forces[..]);
+        let motions = (&saved.moved[..], &saved.velocities[..]);
+        let are_possible = are_of(&self.masses, true, D, forces)
+            && are_of(&self.masses, false, D, motions)
+            && saved.temperatures.iter().all(|&theta| is_positive(theta));
+        if !are_possible {
             return Err(RestoreError::Loads);
         }
-        for (all, (nodes, values, _)) in [&mut loads.forces, &mut loads.motions]
-            .into_iter()
-            .zip(kinds)
-        {
-            all.retain(|(_, course)| !matches!(course, Course::Set(_)));
-            for (&index, &value) in nodes.iter().zip(values) {
-                all.push((self.scene.node(index), Course::Set(value.into())));
-            }
-        }
+        set_all(&mut loads.forces, forces, &self.scene);
+        set_all(&mut loads.motions, motions, &self.scene);
         let mut temperatures = saved.temperatures.iter();
         for (_, own) in &mut loads.temperatures {
             if let (Course::Set(own), Some(saved)) = (own, temperatures.next()) {
@@ -259,6 +247,30 @@ fn set_ones<const D: usize>(
         Course::Set(value) => Some((*node, value)),
         Course::Function(_) | Course::Constant(_) => None,
     })
+}
+
+/// Replaces the values that controllers have set.
+fn set_all<const D: usize>(
+    all: &mut Vec<(Node, VectorCourse<D>)>,
+    (nodes, values): (&[usize], &[f64]),
+    scene: &Lineage,
+) {
+    all.retain(|(_, course)| !matches!(course, Course::Set(_)));
+    for (&index, &value) in nodes.iter().zip(values.as_chunks::<D>().0) {
+        all.push((scene.node(index), Course::Set(value.into())));
+    }
+}
+
+/// Whether there are finite vectors of this dimension for these nodes, all masses or all anchors.
+fn are_of(
+    masses: &Masses,
+    is_mass: bool,
+    dimension: usize,
+    (nodes, values): (&[usize], &[f64]),
+) -> bool {
+    let is_one = |&node: &usize| node < masses.len() && masses.get(node).is_some() == is_mass;
+    let are_finite = values.iter().all(|value| value.is_finite());
+    nodes.len() == values.len() / dimension && nodes.iter().all(is_one) && are_finite
 }
 
 /// Sets the value of a node. True if the node had none before; an error if the scene gives its value.

@@ -177,10 +177,10 @@ impl<const D: usize> Simulation<D> {
             Unknown::Position(index) | Unknown::Momentum(index) => {
                 format!("{} along axis {}", self.scene.node(index / D), index % D)
             }
-            Unknown::Viscous(index) => self.element_with(|own, dashpots| {
+            Unknown::Viscous(index) => self.element_with(&|own, dashpots| {
                 (own.viscous..own.viscous + dashpots).contains(&index)
             })?,
-            Unknown::Temperature(slot) => self.element_with(|own, _| own.thermal == Some(slot))?,
+            Unknown::Temperature(slot) => self.element_with(&|own, _| own.thermal == Some(slot))?,
         };
         Some(WorstError {
             of: format!("the {quantity} of {place}"),
@@ -192,11 +192,13 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// The first element whose slots and number of dashpots satisfy a condition.
-    fn element_with(&self, is_it: impl Fn(Slots, usize) -> bool) -> Option<String> {
-        let mut all = self.all_elements();
-        let found =
-            all.find(|(shape, elements, place)| is_it(elements.slots(*place), shape.dashpots));
-        found.map(|(_, elements, place)| elements.handle(place).to_string())
+    fn element_with(&self, is_it: &dyn Fn(Slots, usize) -> bool) -> Option<String> {
+        for (shape, elements, place) in self.all_elements() {
+            if is_it(elements.slots(place), shape.dashpots) {
+                return Some(elements.handle(place).to_string());
+            }
+        }
+        None
     }
 }
 
@@ -234,19 +236,20 @@ impl<const D: usize> Simulation<D> {
             is_flight([&arm(start), &arm(middle), &arm(end)], share, least)
         };
         let mut all = self.all_elements();
-        let may_fly = all.any(|(_, elements, place)| arms(elements.nodes(place)).any(flies));
+        if !all.any(|(_, elements, place)| any_arm(elements.nodes(place), &flies)) {
+            return false;
+        }
         let mobility = |node: usize| self.masses.get(node).map_or(0.0, f64::recip);
-        may_fly
-            && self.stepper.all().any(|group| {
-                let mut is_found = false;
-                group.stiffness(scales.before(), &mut |point| {
-                    is_found |= arms(point.nodes).any(|arm| {
-                        let rate = (point.elastic * (mobility(arm[0]) + mobility(arm[1]))).sqrt();
-                        0.5 * size * rate > TAU && flies(arm)
-                    });
+        let mut is_found = false;
+        for group in self.stepper.all() {
+            group.stiffness(scales.before(), &mut |point| {
+                is_found |= any_arm(point.nodes, &|arm| {
+                    let rate = (point.elastic * (mobility(arm[0]) + mobility(arm[1]))).sqrt();
+                    0.5 * size * rate > TAU && flies(arm)
                 });
-                is_found
-            })
+            });
+        }
+        is_found
     }
 }
 
@@ -274,8 +277,8 @@ fn passes(from: &[f64], to: &[f64]) -> bool {
     0.0 < share && share < 1.0 && nearest < NEAREST * NEAREST * least
 }
 
-/// The first node of an element with each of the others.
-fn arms(nodes: &[u32]) -> impl Iterator<Item = [usize; 2]> {
-    let others = nodes.iter().skip(1);
-    others.map(|&other| [nodes[0] as usize, other as usize])
+/// Whether the first node of an element with one of the others satisfies a condition.
+fn any_arm(nodes: &[u32], is_it: &dyn Fn([usize; 2]) -> bool) -> bool {
+    let mut others = nodes.iter().skip(1);
+    others.any(|&other| is_it([nodes[0] as usize, other as usize]))
 }

@@ -5,6 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use super::Simulation;
 use super::compiled::Functions;
 use super::stepper::Stepper;
+use crate::algebra::indices;
 use crate::element::conduction::Partner;
 use crate::element::group::{ElementView, Elements};
 use crate::element::handle::{Element, Handle, Node, Reservoir, SceneId};
@@ -435,8 +436,8 @@ impl<const D: usize> Simulation<D> {
 
     /// All elements in the order of creation: the capabilities of their group, the group, and their index there.
     pub(super) fn all_elements(&self) -> impl Iterator<Item = (Shape, &dyn Elements<D>, usize)> {
-        self.places.iter().map(|&[group, place]| {
-            let [group, place] = [group, place].map(|number| number as usize);
+        self.places.iter().map(|&own| {
+            let [group, place] = indices(own);
             (self.shapes[group], self.stepper.elements(group), place)
         })
     }
@@ -459,7 +460,7 @@ impl<const D: usize> Simulation<D> {
 
     /// The group of an element of this scene, and its index there.
     pub(super) fn place(&self, element: Element) -> [usize; 2] {
-        self.places[element.index()].map(|number| number as usize)
+        indices(self.places[element.index()])
     }
 
     /// The state indices of an element of this scene.

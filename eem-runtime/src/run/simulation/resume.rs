@@ -4,7 +4,8 @@ use super::Simulation;
 use super::compiled::Functions;
 use super::memory::Unresolved;
 use super::start::check_tolerance;
-use crate::element::conduction::Partner;
+use crate::element::conduction::{Conduction, Partner};
+use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::run::checkpoint::{Checkpoint, Numbers, Outline, RestoreError, SavedEnergies};
 use crate::scene::loads::{Course, MOTION_ROUNDINGS, extent};
@@ -140,9 +141,6 @@ impl<const D: usize> Simulation<D> {
 
     /// Digests of the numbers of the scene.
     pub(super) fn numbers(&self) -> Numbers {
-        let of_list = |numbers: &[f64]| {
-            Digest::of(|digest| numbers.iter().for_each(|&number| digest.number(number)))
-        };
         let mut reservoirs = self.conduction.reservoirs.clone();
         for (index, temperature) in &self.loads.ovens {
             reservoirs[*index] = temperature(self.start);
@@ -153,33 +151,10 @@ impl<const D: usize> Simulation<D> {
                     group.digest(digest);
                 }
             }),
-            masses: Digest::of(|digest| {
-                for mass in self.masses.iter() {
-                    digest.number(mass.unwrap_or(0.0));
-                }
-                for pair in self.masses.pairs().iter().chain(self.masses.held()) {
-                    let [first, second] = pair.nodes();
-                    digest.count(first);
-                    digest.count(second);
-                    digest.number(pair.mass);
-                }
-            }),
-            conductances: Digest::of(|digest| {
-                for slot in 0..self.state.temperatures.len() {
-                    for link in self.conduction.links(slot) {
-                        let (kind, index) = match link.partner {
-                            Partner::Slot(slot) => (0, slot),
-                            Partner::Reservoir(reservoir) => (1, reservoir),
-                        };
-                        for count in [slot, kind, index] {
-                            digest.count(count);
-                        }
-                        digest.number(link.conductance);
-                    }
-                }
-            }),
-            reservoirs: of_list(&reservoirs),
-            gravity: of_list(self.loads.gravity.as_slice()),
+            masses: digest_of_masses(&self.masses),
+            conductances: digest_of_paths(&self.conduction, self.state.temperatures.len()),
+            reservoirs: digest_of(&reservoirs),
+            gravity: digest_of(self.loads.gravity.as_slice()),
         }
     }
 
@@ -194,7 +169,7 @@ impl<const D: usize> Simulation<D> {
         }
         self.audit_meters(&state.meters)?;
         self.audit_anchors(state, step)?;
-        self.audit_velocities(state)?;
+        audit_velocities(D, state, &self.masses, &self.are_moved())?;
         self.audit_thermostats(state)?;
         for group in self.stepper.all() {
             group.audit(state)?;
@@ -216,33 +191,6 @@ impl<const D: usize> Simulation<D> {
             are_moved[node.index] = true;
         }
         are_moved
-    }
-
-    /// Where masses couple nodes, `p = M v` must hold, and only moved anchors may have a velocity.
-    fn audit_velocities(&self, state: &State) -> Result<(), RestoreError> {
-        if !state.velocities.values().is_empty() {
-            let are_moved = self.are_moved();
-            for node in self.masses.anchors().filter(|&node| !are_moved[node]) {
-                for axis in 0..D {
-                    if let Some(value) = not_zero(state.velocities.sum(node * D + axis)) {
-                        return Err(RestoreError::AnchorVelocity { node, axis, value });
-                    }
-                }
-            }
-        }
-        let mut expected = state.clone();
-        expected.follow_velocities(D, &self.masses);
-        let momenta = state.momenta.values().iter();
-        let mut momenta = momenta.zip(expected.momenta.values());
-        #[expect(clippy::float_cmp, reason = "they are computed in the same way")]
-        let different = momenta.find(|(a, b)| a != b);
-        different.map_or(Ok(()), |(&value, _)| {
-            Err(RestoreError::Value {
-                quantity: "momenta",
-                value,
-                required: "those of the velocities, p = M v",
-            })
-        })
     }
 
     /// Anchors must be where they were created or where their motion puts them, and have no momentum but that of solids.
@@ -316,6 +264,74 @@ impl<const D: usize> Simulation<D> {
         }
         Ok(())
     }
+}
+
+/// The digest of some numbers.
+fn digest_of(numbers: &[f64]) -> Digest {
+    Digest::of(|digest| numbers.iter().for_each(|&number| digest.number(number)))
+}
+
+fn digest_of_masses(masses: &Masses) -> Digest {
+    Digest::of(|digest| {
+        for mass in masses.iter() {
+            digest.number(mass.unwrap_or(0.0));
+        }
+        for pair in masses.pairs().iter().chain(masses.held()) {
+            let [first, second] = pair.nodes();
+            digest.count(first);
+            digest.count(second);
+            digest.number(pair.mass);
+        }
+    })
+}
+
+/// The digest of the paths of heat between so many slots.
+fn digest_of_paths(conduction: &Conduction, slots: usize) -> Digest {
+    Digest::of(|digest| {
+        for slot in 0..slots {
+            for link in conduction.links(slot) {
+                let (kind, index) = match link.partner {
+                    Partner::Slot(slot) => (0, slot),
+                    Partner::Reservoir(reservoir) => (1, reservoir),
+                };
+                for count in [slot, kind, index] {
+                    digest.count(count);
+                }
+                digest.number(link.conductance);
+            }
+        }
+    })
+}
+
+/// Where masses couple nodes, `p = M v` must hold, and only moved anchors may have a velocity.
+fn audit_velocities(
+    dimension: usize,
+    state: &State,
+    masses: &Masses,
+    are_moved: &[bool],
+) -> Result<(), RestoreError> {
+    if !state.velocities.values().is_empty() {
+        for node in masses.anchors().filter(|&node| !are_moved[node]) {
+            for axis in 0..dimension {
+                if let Some(value) = not_zero(state.velocities.sum(node * dimension + axis)) {
+                    return Err(RestoreError::AnchorVelocity { node, axis, value });
+                }
+            }
+        }
+    }
+    let mut expected = state.clone();
+    expected.follow_velocities(dimension, masses);
+    let momenta = state.momenta.values().iter();
+    let mut momenta = momenta.zip(expected.momenta.values());
+    #[expect(clippy::float_cmp, reason = "they are computed in the same way")]
+    let different = momenta.find(|(a, b)| a != b);
+    different.map_or(Ok(()), |(&value, _)| {
+        Err(RestoreError::Value {
+            quantity: "momenta",
+            value,
+            required: "those of the velocities, p = M v",
+        })
+    })
 }
 
 /// A sum, unless it and its compensation are zero.

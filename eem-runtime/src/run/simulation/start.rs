@@ -8,7 +8,7 @@ use crate::element::meters::Meters;
 use crate::element::state::{Energy, State};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
-use crate::scene::entry::NodeEntry;
+use crate::scene::entry::{ElementEntry, NodeEntry};
 use crate::scene::error::{RocketError, SceneError};
 use crate::scene::loads::{Course, Loads, Written, written};
 use crate::scene::solid_error::SolidError;
@@ -31,31 +31,16 @@ pub(crate) fn initial_state<const D: usize>(
 ) -> Result<Box<State>, Vec<SceneError>> {
     let coordinates = scene.nodes.len() * D;
     let is_coupled = !scene.pairs.is_empty();
-    let zeros = |count| Compensated::new(vec![0.0; count]);
-    let zero = Sum::new(0.0);
-    let mut state = used.unwrap_or_else(|| {
-        Box::new(State {
-            time: zero,
-            positions: zeros(coordinates),
-            momenta: zeros(coordinates),
-            velocities: zeros(if is_coupled { coordinates } else { 0 }),
-            viscous: zeros(layout.viscous),
-            entropies: zeros(layout.thermal),
-            temperatures: vec![0.0; layout.thermal],
-            energies: vec![Energy::zero(); scene.elements.len()],
-            reservoir_entropies: zeros(scene.reservoirs.len()),
-            work: zero,
-            heat: zero,
-            thermostat_entropy: zero,
-            dissipated: zero,
-            meters: Meters::default(),
-        })
-    });
+    let velocities = if is_coupled { coordinates } else { 0 };
+    let counts = [coordinates, velocities, scene.reservoirs.len()];
+    let mut state = cleared_state(counts, layout, used);
+    state.time = Sum::new(scene.start);
+    set_internal(&scene.elements, layout, &mut state);
     let (moves, still) = (step.is_some(), SVector::from([0.0; D]));
     let positions = &mut state.positions;
-    positions.write(|all| write_points(all, scene, |node| node.position));
+    positions.write(|all| write_points(all, scene, &|node| node.position));
     state.momenta.write(|all| {
-        write_points(all, scene, |node| {
+        write_points(all, scene, &|node| {
             let momentum = node.start_momentum(node.mass.unwrap_or(0.0));
             if moves { momentum } else { still }
         });
@@ -63,7 +48,7 @@ pub(crate) fn initial_state<const D: usize>(
     let mut errors = Vec::new();
     if is_coupled {
         state.velocities.write(|all| {
-            write_points(all, scene, |node| match node.mass.filter(|_| moves) {
+            write_points(all, scene, &|node| match node.mass.filter(|_| moves) {
                 Some(_) => node.velocity,
                 None => still,
             });
@@ -72,12 +57,59 @@ pub(crate) fn initial_state<const D: usize>(
             }
         });
     }
-    if !errors.is_empty() {
-        return Err(errors);
+    if errors.is_empty() {
+        Ok(state)
+    } else {
+        Err(errors)
     }
-    state.viscous.write(|all| all.fill(0.0));
+}
+
+/// A state of these numbers of coordinates, velocities and reservoirs, in the memory of one if there is some. All but the first two
+/// are zero.
+fn cleared_state(
+    [coordinates, velocities, reservoirs]: [usize; 3],
+    layout: &Layout,
+    used: Option<Box<State>>,
+) -> Box<State> {
+    let zeros = |count| Compensated::new(vec![0.0; count]);
+    let zero = Sum::new(0.0);
+    let Some(mut state) = used else {
+        return Box::new(State {
+            time: zero,
+            positions: zeros(coordinates),
+            momenta: zeros(coordinates),
+            velocities: zeros(velocities),
+            viscous: zeros(layout.viscous),
+            entropies: zeros(layout.thermal),
+            temperatures: vec![0.0; layout.thermal],
+            energies: vec![Energy::zero(); layout.elements.len()],
+            reservoir_entropies: zeros(reservoirs),
+            work: zero,
+            heat: zero,
+            thermostat_entropy: zero,
+            dissipated: zero,
+            meters: Meters::default(),
+        });
+    };
+    let sums = [
+        &mut state.viscous,
+        &mut state.entropies,
+        &mut state.reservoir_entropies,
+    ];
+    for sums in sums {
+        sums.write(|all| all.fill(0.0));
+    }
     state.temperatures.fill(0.0);
-    for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
+    state.energies.fill(Energy::zero());
+    (state.work, state.heat) = (zero, zero);
+    (state.thermostat_entropy, state.dissipated) = (zero, zero);
+    state.meters = Meters::default();
+    state
+}
+
+/// Writes viscous stretches and temperatures as they are given.
+fn set_internal(elements: &[ElementEntry], layout: &Layout, state: &mut State) {
+    for (entry, slots) in elements.iter().zip(&layout.elements) {
         for &(dashpot, stretch) in &entry.viscous_stretches {
             state.viscous.set(slots.viscous + dashpot, stretch);
         }
@@ -85,21 +117,13 @@ pub(crate) fn initial_state<const D: usize>(
             state.temperatures[slot] = temperature;
         }
     }
-    state.entropies.write(|all| all.fill(0.0));
-    state.energies.fill(Energy::zero());
-    state.reservoir_entropies.write(|all| all.fill(0.0));
-    state.time = Sum::new(scene.start);
-    (state.work, state.heat) = (zero, zero);
-    (state.thermostat_entropy, state.dissipated) = (zero, zero);
-    state.meters = Meters::default();
-    Ok(state)
 }
 
 /// Writes a vector for each node of a scene.
 fn write_points<const D: usize>(
     all: &mut [f64],
     scene: &Scene<D>,
-    of: impl Fn(&NodeEntry<D>) -> SVector<f64, D>,
+    of: &dyn Fn(&NodeEntry<D>) -> SVector<f64, D>,
 ) {
     for (own, node) in all.as_chunks_mut::<D>().0.iter_mut().zip(&scene.nodes) {
         *own = of(node).into();

@@ -8,6 +8,7 @@ use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
+use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
 use crate::step::explicit::{Explicit, SavedExplicit, Site};
@@ -17,6 +18,19 @@ use crate::step::systems::Systems;
 
 /// The elements of a scene without a scheme, a set per model.
 type Models<const D: usize> = Vec<Box<dyn Loose<D>>>;
+
+/// What is done with the elements in their initial state before memory for the solver is reserved.
+type Begin<'a, const D: usize> =
+    &'a mut dyn FnMut(&mut State, &mut [&mut dyn Elements<D>]) -> Result<(), Vec<SceneError>>;
+
+/// What becomes of each of these.
+fn each<T, U>(all: Vec<T>, mut change: impl FnMut(T) -> U) -> Vec<U> {
+    let mut changed = Vec::with_capacity(all.len());
+    for own in all {
+        changed.push(change(own));
+    }
+    changed
+}
 
 /// The solver of a scheme with the elements of a scene.
 pub(super) enum Stepper<const D: usize> {
@@ -64,35 +78,35 @@ impl<const D: usize> Memory<D> {
 impl<const D: usize> Stepper<D> {
     /// A stepper for elements in a state. `begin` is called with the elements before memory for the solver is reserved; if it
     /// fails, the elements are returned.
-    pub(super) fn new<E>(
+    pub(super) fn new(
         elements: Models<D>,
         memory: Memory<D>,
         (scheme, site): (Scheme, Site<'_, D>),
         state: &mut State,
-        begin: impl FnOnce(&mut State, &mut [&mut dyn Elements<D>]) -> Result<(), E>,
-    ) -> Result<Self, (E, Models<D>)> {
+        begin: Begin<'_, D>,
+    ) -> Result<Self, (Vec<SceneError>, Models<D>)> {
         let placed = Placed {
             nodes: site.elements,
             layout: site.layout,
         };
-        let elements = elements.into_iter();
+        let mut all = Vec::with_capacity(elements.len());
         if scheme.closing() == Closing::Explicit {
-            let groups = elements.map(|elements| elements.build_explicit(placed));
-            let mut groups: Vec<_> = groups.collect();
-            let all = groups.iter_mut().map(|group| group.elements_mut());
-            if let Err(error) = begin(state, &mut all.collect::<Vec<_>>()) {
-                let groups = groups.into_iter();
-                return Err((error, groups.map(ExplicitGroup::into_loose).collect()));
+            let mut groups = each(elements, |elements| elements.build_explicit(placed));
+            for group in &mut groups {
+                all.push(group.elements_mut());
+            }
+            if let Err(errors) = begin(state, &mut all) {
+                return Err((errors, each(groups, ExplicitGroup::into_loose)));
             }
             return Ok(Self::Explicit(Box::new(Explicit::new(groups, site))));
         }
         let by = scheme.conjugates();
-        let groups = elements.map(|elements| elements.build(by, placed));
-        let mut groups: Vec<_> = groups.collect();
-        let all = groups.iter_mut().map(|group| group.elements_mut());
-        if let Err(error) = begin(state, &mut all.collect::<Vec<_>>()) {
-            let groups = groups.into_iter();
-            return Err((error, groups.map(Group::into_loose).collect()));
+        let mut groups = each(elements, |elements| elements.build(by, placed));
+        for group in &mut groups {
+            all.push(group.elements_mut());
+        }
+        if let Err(errors) = begin(state, &mut all) {
+            return Err((errors, each(groups, Group::into_loose)));
         }
         let newton = Newton::new(groups, memory, (scheme, site), state);
         Ok(Self::Newton(newton))
@@ -101,10 +115,7 @@ impl<const D: usize> Stepper<D> {
     /// Takes the elements out of the stepper, which cannot step afterwards.
     pub(super) fn take_elements(&mut self) -> Models<D> {
         match self {
-            Self::Newton(newton) => {
-                let groups = mem::take(&mut newton.groups).into_iter();
-                groups.map(Group::into_loose).collect()
-            }
+            Self::Newton(newton) => each(mem::take(&mut newton.groups), Group::into_loose),
             Self::Explicit(explicit) => explicit.take_elements(),
         }
     }
@@ -193,23 +204,25 @@ impl<const D: usize> Newton<D> {
     ) -> Box<Self> {
         let (masses, layout, conduction) = (site.masses, site.layout, site.conduction);
         let (coordinates, is_coupled) = (masses.len() * D, masses.are_coupled());
-        let no_loads = || StepLoads::new(coordinates, layout, site.loads, is_coupled);
-        let count = scheme.tableau().map_or(0, Tableau::stages);
-        let (loads, stages) = (no_loads(), (0..count).map(|_| no_loads()).collect());
-        let intermediate = scheme.is_split().then(|| state.clone());
         let mut newton = match memory {
-            Memory::New(systems) => Box::new(Self {
-                groups,
-                solver: Solver::new(scheme, systems, masses, layout, conduction, &loads),
-                loads,
-                stages,
-                intermediate,
-            }),
+            Memory::New(systems) => {
+                let loads = StepLoads::new(coordinates, layout, site.loads, is_coupled);
+                let stages = scheme.tableau().map_or(0, Tableau::stages);
+                Box::new(Self {
+                    groups,
+                    solver: Solver::new(scheme, systems, masses, layout, conduction, &loads),
+                    stages: vec![loads.clone(); stages],
+                    loads,
+                    intermediate: scheme.is_split().then(|| state.clone()),
+                })
+            }
+            // Weights are found in every step.
             Memory::Used(mut newton) => {
                 newton.solver.renew(masses);
                 newton.groups = groups;
-                (newton.loads, newton.stages) = (loads, stages);
-                newton.intermediate = intermediate;
+                if let Some(intermediate) = &mut newton.intermediate {
+                    intermediate.copy_all_from(state);
+                }
                 newton
             }
         };

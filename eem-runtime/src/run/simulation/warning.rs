@@ -1,10 +1,10 @@
 //! Warnings: what steps that keep all laws leave unsaid.
 
 use core::fmt;
-use std::collections::BTreeSet;
 
 use super::Simulation;
 use super::memory::Unresolved;
+use crate::algebra::ascending;
 use crate::element::handle::Element;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::Scalar;
@@ -107,7 +107,7 @@ impl<const D: usize> Simulation<D> {
     /// reservoirs)` of a conduction unless a thermostat prescribes the temperature.
     pub(super) fn fastest_relaxation(&self) -> Option<(f64, Element)> {
         let held = self.loads.temperatures.iter();
-        let held: BTreeSet<usize> = held.map(|(element, _)| element.index()).collect();
+        let held = ascending(held.map(|(element, _)| element.index()).collect());
         let mut fastest: Option<(f64, Element)> = None;
         for elements in self.stepper.all() {
             let mut place = 0;
@@ -118,7 +118,7 @@ impl<const D: usize> Simulation<D> {
                     place += 1;
                     let mut rate = point.relaxation;
                     if let Some((slot, capacity)) = point.capacity
-                        && !held.contains(&element.index())
+                        && held.binary_search(&element.index()).is_err()
                     {
                         let settling = self.conduction.settling(slot);
                         rate = rate.max(2.0 * settling / capacity);

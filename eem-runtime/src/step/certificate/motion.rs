@@ -200,6 +200,7 @@ impl<const D: usize> Motion<D> {
         }
     }
 
+    #[inline]
     fn see_momenta(&mut self, node: &NodeStep<'_, D>, load: &[f64; D], origin: &[f64; D]) {
         let (mut arm, mut mean, mut net) = ([0.0; D], [0.0; D], [0.0; D]);
         let (mut length, mut size) = (0.0, 0.0);

@@ -1,15 +1,14 @@
 //! The least scales of errors, from what a scene holds: no unknown is the reason for tiny steps because it starts at zero.
 
 use core::f64::consts::TAU;
-use std::collections::BTreeMap;
 
 use crate::algebra::{length, norm};
 use crate::element::conduction::{Conduction, Partner};
-use crate::element::group::Elements;
+
+use crate::element::group::{Elements, Stiffness};
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::step::control::controller::{Accuracy, ROUNDINGS};
-use eem_material::number::compact::compact;
 use eem_material::number::scalar::Scalar;
 
 /// A momentum that grows counts for at most this multiple of itself.
@@ -46,13 +45,16 @@ pub(crate) struct LeastScales {
     nodes: Box<[AtNode]>,
     /// The largest entries of all nodes.
     most: AtNode,
-    /// The sum of the stiffnesses between each moved anchor and a mass, N/m.
-    links: BTreeMap<[u32; 2], f64>,
+    /// The moved anchors, in ascending order, with the masses that each pulls.
+    links: Vec<(usize, Pulled)>,
     /// The ends of springs with dashpots in series.
     viscous: Box<[[u32; 2]]>,
     /// The largest κ/c of the elements at each reservoir, 1/s.
     exchanges: Box<[f64]>,
 }
+
+/// The nodes that a moved anchor pulls, with the sum of the stiffnesses between them, N/m.
+type Pulled = Vec<(u32, f64)>;
 
 /// What is around a node.
 #[derive(Clone, Copy, Debug, Default)]
@@ -79,99 +81,11 @@ impl LeastScales {
         (masses, conduction): (&Masses, &Conduction),
         (state, gravity, moved): (&State, f64, &[usize]),
     ) -> Self {
-        let size = length(state.positions.values());
-        let size = if size > 0.0 { size } else { 1.0 };
-        let mut nodes = vec![AtNode::default(); masses.len()];
-        // The sum of the dampers, N s/m, and the shortest length, m, at each node.
-        let mut around = vec![[0.0, f64::MAX]; masses.len()];
-        let mut rate = 0.0;
-        let mut links = BTreeMap::new();
-        let mut viscous = Vec::new();
-        let mut exchanges = vec![0.0; conduction.reservoirs.len()];
+        let mut found = Around::new(state, (masses, conduction), moved);
         for group in groups {
-            group.stiffness(state, &mut |point| {
-                rate = Scalar::maximum(rate, point.relaxation);
-                if point.has_viscous_stretch {
-                    viscous.push([point.nodes[0], point.nodes[1]]);
-                }
-                if let Some((slot, capacity)) = point.capacity {
-                    let mut flow = 0.0;
-                    for link in conduction.links(slot) {
-                        flow += link.conductance;
-                        if let Partner::Reservoir(index) = link.partner {
-                            let own = link.conductance / capacity;
-                            exchanges[index] = Scalar::maximum(exchanges[index], own);
-                        }
-                    }
-                    rate = Scalar::maximum(rate, flow / capacity);
-                }
-                for &node in point.nodes {
-                    let at = &mut nodes[node as usize];
-                    at.stiffness += point.elastic;
-                    at.force += point.force;
-                    let [damping, length] = &mut around[node as usize];
-                    *damping += point.damping;
-                    *length = Scalar::minimum(*length, point.length);
-                }
-                let is_moved = |anchor: &&u32| moved.binary_search(&(**anchor as usize)).is_ok();
-                for &anchor in point.nodes.iter().filter(is_moved) {
-                    for &node in point.nodes {
-                        if masses.get(node as usize).is_some() {
-                            *links.entry([anchor, node]).or_insert(0.0) += point.elastic;
-                        }
-                    }
-                }
-            });
+            group.stiffness(state, &mut |point| found.see(&point));
         }
-        let mut most = AtNode {
-            period: f64::MAX,
-            ..AtNode::default()
-        };
-        // Anchors have momenta next to solids.
-        let all = nodes.iter_mut().zip(masses.iter());
-        for (((at, own), &held), [damping, length]) in all.zip(&*masses.weights()).zip(around) {
-            let mass = own.unwrap_or(held);
-            at.mass = own.unwrap_or(0.0);
-            if at.mass > 0.0 {
-                let fastest = Scalar::maximum((at.stiffness / mass).sqrt(), damping / mass);
-                rate = Scalar::maximum(rate, fastest);
-            }
-            let length = if length < f64::MAX { length } else { size };
-            // m ω = √(k m), times ω m/d at most.
-            let root = (at.stiffness * mass).sqrt();
-            let is_slow = root < damping;
-            let bound = if is_slow {
-                root * (root / damping)
-            } else {
-                root
-            };
-            let has_period = bound > 0.0 && mass > 0.0;
-            at.period = if has_period {
-                TAU * mass / bound
-            } else {
-                f64::MAX
-            };
-            at.bound = length * bound;
-            at.free = if at.stiffness == 0.0 {
-                mass * length
-            } else {
-                0.0
-            };
-            at.force += at.mass * gravity;
-            most.bound = Scalar::maximum(most.bound, at.bound);
-            most.free = Scalar::maximum(most.free, at.free);
-            most.force = Scalar::maximum(most.force, at.force);
-            most.stiffness = Scalar::maximum(most.stiffness, at.stiffness);
-        }
-        Self {
-            size,
-            rate,
-            links,
-            viscous: viscous.into(),
-            exchanges: exchanges.into(),
-            most,
-            nodes: nodes.into(),
-        }
+        found.scales(gravity)
     }
 
     /// The first step that is tried, s: in the time of the fastest motion, `1/ω`, the errors of `r^(−1/p)` steps add up to
@@ -262,9 +176,150 @@ impl LeastScales {
 
     /// The masses that a moved anchor pulls, with the stiffness between them, N/m.
     pub(crate) fn pulled_by(&self, anchor: usize) -> impl Iterator<Item = (usize, f64)> {
-        let anchor = compact(anchor);
-        let links = self.links.range([anchor, 0]..=[anchor, u32::MAX]);
-        links.map(|(&[_, mass], &stiffness)| (mass as usize, stiffness))
+        let own = self.links.binary_search_by_key(&anchor, |link| link.0);
+        let masses = own.map_or(&[][..], |link| &self.links[link].1).iter();
+        masses.map(|&(mass, stiffness)| (mass as usize, stiffness))
+    }
+}
+
+/// What the elements of a scene tell about its nodes, and what else is in its [`LeastScales`].
+struct Around<'a> {
+    masses: &'a Masses,
+    conduction: &'a Conduction,
+    moved: &'a [usize],
+    size: f64,
+    rate: f64,
+    nodes: Vec<AtNode>,
+    /// The sum of the dampers, N s/m, and the shortest length, m, at each node.
+    held: Vec<[f64; 2]>,
+    links: Vec<(usize, Pulled)>,
+    viscous: Vec<[u32; 2]>,
+    exchanges: Box<[f64]>,
+}
+
+impl<'a> Around<'a> {
+    fn new(
+        state: &State,
+        (masses, conduction): (&'a Masses, &'a Conduction),
+        moved: &'a [usize],
+    ) -> Self {
+        let size = length(state.positions.values());
+        let mut links = Vec::with_capacity(moved.len());
+        for &anchor in moved {
+            links.push((anchor, Pulled::new()));
+        }
+        Self {
+            masses,
+            conduction,
+            moved,
+            size: if size > 0.0 { size } else { 1.0 },
+            rate: 0.0,
+            nodes: vec![AtNode::default(); masses.len()],
+            held: vec![[0.0, f64::MAX]; masses.len()],
+            links,
+            viscous: Vec::new(),
+            exchanges: vec![0.0; conduction.reservoirs.len()].into(),
+        }
+    }
+
+    /// Adds a point of an element.
+    fn see(&mut self, point: &Stiffness<'_>) {
+        self.rate = Scalar::maximum(self.rate, point.relaxation);
+        if point.has_viscous_stretch {
+            self.viscous.push([point.nodes[0], point.nodes[1]]);
+        }
+        if let Some((slot, capacity)) = point.capacity {
+            let mut flow = 0.0;
+            for link in self.conduction.links(slot) {
+                flow += link.conductance;
+                if let Partner::Reservoir(index) = link.partner {
+                    let exchange = &mut self.exchanges[index];
+                    *exchange = Scalar::maximum(*exchange, link.conductance / capacity);
+                }
+            }
+            self.rate = Scalar::maximum(self.rate, flow / capacity);
+        }
+        for &node in point.nodes {
+            let at = &mut self.nodes[node as usize];
+            at.stiffness += point.elastic;
+            at.force += point.force;
+            let [damping, length] = &mut self.held[node as usize];
+            *damping += point.damping;
+            *length = Scalar::minimum(*length, point.length);
+        }
+        for &anchor in point.nodes {
+            let Ok(link) = self.moved.binary_search(&(anchor as usize)) else {
+                continue;
+            };
+            for &node in point.nodes {
+                if self.masses.get(node as usize).is_some() {
+                    pull(&mut self.links[link].1, node, point.elastic);
+                }
+            }
+        }
+    }
+
+    /// The scales, given the acceleration of free fall, m/s².
+    fn scales(mut self, gravity: f64) -> LeastScales {
+        let mut most = AtNode {
+            period: f64::MAX,
+            ..AtNode::default()
+        };
+        // Anchors have momenta next to solids.
+        let weights = self.masses.weights();
+        for (node, at) in self.nodes.iter_mut().enumerate() {
+            let (own, [damping, length]) = (self.masses.get(node), self.held[node]);
+            let mass = own.unwrap_or(weights[node]);
+            at.mass = own.unwrap_or(0.0);
+            if at.mass > 0.0 {
+                let fastest = Scalar::maximum((at.stiffness / mass).sqrt(), damping / mass);
+                self.rate = Scalar::maximum(self.rate, fastest);
+            }
+            let length = if length < f64::MAX { length } else { self.size };
+            // m ω = √(k m), times ω m/d at most.
+            let root = (at.stiffness * mass).sqrt();
+            let is_slow = root < damping;
+            let bound = if is_slow {
+                root * (root / damping)
+            } else {
+                root
+            };
+            let has_period = bound > 0.0 && mass > 0.0;
+            at.period = if has_period {
+                TAU * mass / bound
+            } else {
+                f64::MAX
+            };
+            at.bound = length * bound;
+            at.free = if at.stiffness == 0.0 {
+                mass * length
+            } else {
+                0.0
+            };
+            at.force += at.mass * gravity;
+            most.bound = Scalar::maximum(most.bound, at.bound);
+            most.free = Scalar::maximum(most.free, at.free);
+            most.force = Scalar::maximum(most.force, at.force);
+            most.stiffness = Scalar::maximum(most.stiffness, at.stiffness);
+        }
+        LeastScales {
+            size: self.size,
+            rate: self.rate,
+            links: self.links,
+            viscous: self.viscous.into(),
+            exchanges: self.exchanges,
+            most,
+            nodes: self.nodes.into(),
+        }
+    }
+}
+
+/// Adds a stiffness between a moved anchor and a mass, N/m.
+fn pull(masses: &mut Pulled, node: u32, stiffness: f64) {
+    let mut all = masses.iter_mut();
+    match all.find(|(mass, _)| *mass == node) {
+        Some((_, sum)) => *sum += stiffness,
+        None => masses.push((node, stiffness)),
     }
 }
 

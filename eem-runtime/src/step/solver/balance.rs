@@ -39,17 +39,15 @@ pub(super) struct Balance<const D: usize> {
 }
 
 impl<const D: usize> Balance<D> {
-    /// Those of the nodes with a mass, for a set of unknowns.
-    pub(super) fn all<'a>(
-        masses: &'a Masses,
-        sites: &'a Sites<'_, D>,
-    ) -> impl Iterator<Item = Self> + 'a {
+    /// Adds those of the nodes with a mass, for a set of unknowns.
+    pub(super) fn add_all(masses: &Masses, sites: &Sites<'_, D>, all: &mut Vec<Self>) {
         let [set, _] = sites.sets;
-        let nodes = masses.iter().zip(&sites.layout.nodes).enumerate();
-        nodes.filter_map(move |(node, (mass, first))| {
-            let (mass, first) = (mass?, (*first)?);
+        for (node, first) in sites.layout.nodes.iter().enumerate() {
+            let (Some(mass), Some(first)) = (masses.get(node), *first) else {
+                continue;
+            };
             let own = Some(first / D);
-            Some(Self {
+            all.push(Self {
                 node,
                 in_trial: set * masses.len() + node,
                 set: compact(set),
@@ -65,8 +63,8 @@ impl<const D: usize> Balance<D> {
                 inertia: 0.0,
                 per_length: 1.0,
                 push: [0.0; D],
-            })
-        })
+            });
+        }
     }
 
     /// Makes it that of a scene with other masses.
@@ -213,16 +211,17 @@ pub(super) struct Interface {
 }
 
 impl Interface {
-    /// All of a set of unknowns.
-    pub(super) fn all<const D: usize>(sites: &Sites<'_, D>) -> impl Iterator<Item = Self> {
+    /// Adds all of a set of unknowns.
+    pub(super) fn add_all<const D: usize>(sites: &Sites<'_, D>, all: &mut Vec<Self>) {
         let first = sites.sets[0] * sites.layout.thermal;
-        let slots = sites.layout.coupled.iter().enumerate();
-        slots
-            .filter(|(_, unknown)| unknown.is_some())
-            .map(move |(slot, unknown)| Self {
-                slot,
-                in_trial: first + slot,
-                row: sites.row(*unknown),
-            })
+        for (slot, unknown) in sites.layout.coupled.iter().enumerate() {
+            if unknown.is_some() {
+                all.push(Self {
+                    slot,
+                    in_trial: first + slot,
+                    row: sites.row(*unknown),
+                });
+            }
+        }
     }
 }

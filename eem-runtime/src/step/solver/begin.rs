@@ -29,7 +29,11 @@ pub(super) enum Start {
 
 impl<const D: usize> Search<'_, D> {
     /// Starts at the old state, or at a predicted motion if the scheme uses one.
-    #[inline]
+    #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "a step calls it in one place, but states at rest in another"
+    )]
     pub(super) fn begin(&mut self, start: Start) -> Result<(), StepFailure> {
         let (solver, view) = (&mut *self.solver, self.view);
         for (node, force) in solver.old_force.iter_mut().enumerate() {
@@ -93,7 +97,8 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Sets moved anchors to their positions at the end of the step, or at the stage of each set.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Search::begin`")]
     fn place_moved_anchors(&mut self, view: &StepView<'_>) {
         for set in 0..self.sets.len() {
             let first = self.trial.first_of_set(set);
@@ -108,7 +113,8 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Sets moving nodes to their predicted positions, and interface temperatures to the old ones.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Search::begin`")]
     fn start(&mut self, view: &StepView<'_>, start: Start) {
         let is_coupled = !self.coupling.is_none();
         let momenta = points::<D>(view.state.momenta.values());

@@ -85,7 +85,8 @@ impl<const D: usize> Search<'_, D> {
     }
 
     /// Finds impulses, and displacements where these follow from impulses.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Search::begin`")]
     pub(super) fn find_motion(&mut self, care: Care) {
         self.solver.forget_magnitudes(care);
         let scheme = self.solver.scheme;

@@ -7,10 +7,8 @@
 //! for moving nodes b and moved anchors m. The velocities of m come from its prescribed motion and not from the
 //! positions alone, so that they do not oscillate from step to step.
 
-use std::collections::BTreeMap;
-
 use super::balance::Balance;
-use crate::algebra::{add, combined, difference, vector};
+use crate::algebra::{add, combined, difference, indices, vector};
 use crate::element::group::{Sites, StepView, Trial};
 use crate::element::masses::Masses;
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Path, Tableau};
@@ -53,7 +51,7 @@ struct CoupledPair {
 
 impl CoupledPair {
     fn indices(&self) -> [usize; 2] {
-        self.nodes.map(|node| node as usize)
+        indices(self.nodes)
     }
 }
 
@@ -85,33 +83,36 @@ impl<const D: usize> Coupling<D> {
                 }
             }
         }
-        let mut driven = BTreeMap::<_, Vec<_>>::new();
+        let moving = masses.iter().flatten().count();
+        let has_held = !masses.held().is_empty();
+        let mut driven = vec![Vec::new(); if has_held { moving } else { 0 }];
         for pair in masses.held() {
             let [a, b] = pair.nodes();
             for [node, moves] in [[a, b], [b, a]] {
                 if let Some(first) = unknowns[node]
                     && moved.binary_search(&moves).is_ok()
                 {
-                    driven
-                        .entry(first / D)
-                        .or_default()
-                        .push((moves, pair.mass));
+                    driven[first / D].push((moves, pair.mass));
                 }
             }
         }
-        let is_coupled = !pairs.is_empty() || !driven.is_empty();
-        let moving = masses.iter().flatten().count();
         let still = [[0.0; D]; 2];
-        let drives = driven.into_iter().map(|(node, anchors)| Drive {
-            node,
-            anchors,
-            of_sets: [still; MOST_SETS],
-            of_step: still,
-        });
+        let mut drives = Vec::new();
+        for (node, anchors) in driven.into_iter().enumerate() {
+            if !anchors.is_empty() {
+                drives.push(Drive {
+                    node,
+                    anchors,
+                    of_sets: [still; MOST_SETS],
+                    of_step: still,
+                });
+            }
+        }
+        let is_coupled = !pairs.is_empty() || !drives.is_empty();
         Self {
             pairs,
             places,
-            drives: drives.collect(),
+            drives,
             impulses: vec![still; if is_coupled { moving } else { 0 }],
         }
     }

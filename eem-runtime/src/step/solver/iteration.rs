@@ -13,7 +13,8 @@ use eem_material::number::scalar::Scalar;
 impl<const D: usize> Search<'_, D> {
     /// Applies the solution and the local corrections that follow from it to the trial state, and starts the next system
     /// there. Returns the largest scaled update.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "see `Search::begin`")]
     pub(super) fn correct(&mut self) -> f64 {
         let (values, right, solution) = self.solver.tangent.renew();
         let trial = &mut self.solver.trial;

@@ -24,16 +24,16 @@
 //! the rows `2 m/h Δq + h F` of a step, which are h times forces, and `Δγ = h g/η` becomes `g = 0`. In the code, R, K and
 //! D are h times those above.
 
+mod search;
 mod stability;
 mod system;
 
-use super::begin::Start;
-use super::{Search, Solver};
+use super::Solver;
 use crate::element::group::{Group, StepView};
 use crate::element::state::State;
-use crate::element::tally::{Care, Tally};
 use crate::step::error::StepFailure;
 use crate::step::newton::{NewtonSettings, is_last};
+use search::{AnySearch, Moving};
 
 /// The size h of the step to a state at rest: `2⁵⁰⁰ s = 3·10¹⁵⁰ s`, a power of two, so that products with it are exact.
 /// Its reciprocal is set to zero, so that there is no inertia; dashpots are relaxed to rounding unless a viscosity is
@@ -54,9 +54,13 @@ const RUNAWAY: f64 = 1e6;
 /// The largest number of steps against friction, in units of the most iterations of a load step.
 const FRICTION_STEPS: usize = 10;
 
-/// The iteration for a state at rest.
-pub(crate) struct AtRest<'a, const D: usize> {
-    search: Search<'a, D>,
+/// The iteration for a state at rest, compiled once for all dimensions.
+pub(crate) struct AtRest<'a> {
+    search: Box<dyn AnySearch + 'a>,
+    view: &'a StepView<'a>,
+    dimension: usize,
+    /// In the order of their rows.
+    nodes: Vec<Moving>,
     settings: NewtonSettings,
     /// The end nodes of the arms of all elements: the edges from their first nodes.
     arms: Vec<[usize; 2]>,
@@ -90,19 +94,36 @@ pub(crate) struct Softest {
     pub(crate) rounding: f64,
 }
 
-/// The displacements of all nodes and their compensations of rounding, m.
-pub(super) type Place<const D: usize> = [Vec<[f64; D]>; 2];
+/// The displacements of all nodes and their compensations of rounding, m, node after node.
+type Place = [Vec<f64>; 2];
 
-impl<'a, const D: usize> AtRest<'a, D> {
+impl<'a> AtRest<'a> {
     /// Starts at the state of a view whose step is [`LONG`], given the end nodes of the arms of elements.
-    pub(crate) fn new(
+    pub(crate) fn new<const D: usize>(
         solver: &'a mut Solver<D>,
         groups: &'a mut [Box<dyn Group<D>>],
         view: &'a StepView<'a>,
         (settings, arms): (NewtonSettings, Vec<[usize; 2]>),
     ) -> Result<Self, StepFailure> {
+        Self::of(
+            Box::new(solver.search(groups, view)),
+            view,
+            D,
+            (settings, arms),
+        )
+    }
+
+    fn of(
+        search: Box<dyn AnySearch + 'a>,
+        view: &'a StepView<'a>,
+        dimension: usize,
+        (settings, arms): (NewtonSettings, Vec<[usize; 2]>),
+    ) -> Result<Self, StepFailure> {
         let mut rest = Self {
-            search: solver.search(groups, view),
+            nodes: search.moving(),
+            search,
+            view,
+            dimension,
             settings,
             arms,
             first: Vec::new(),
@@ -151,18 +172,12 @@ impl<'a, const D: usize> AtRest<'a, D> {
 
     /// Writes the state that was found.
     pub(crate) fn close(&mut self, next: &mut State) -> Result<(), StepFailure> {
-        let [moved, carries] = self.place();
-        let moved = moved.as_flattened().iter().zip(carries.as_flattened());
-        for (at, (moved, carry)) in moved.enumerate() {
-            let old = &self.search.view.state.positions;
+        let [moved, carries] = self.search.place();
+        for (at, (moved, carry)) in moved.iter().zip(carries).enumerate() {
+            let old = &self.view.state.positions;
             next.positions.advance(at, old, moved + carry);
         }
-        let (view, trial) = (self.search.view, &self.search.solver.trial);
-        let mut tally = Tally::new(Care::Quick);
-        for group in &mut *self.search.groups {
-            group.close(view, trial, next, &mut tally)?;
-        }
-        Ok(())
+        self.search.close(next)
     }
 
     /// Newton's method for a share of the loads. On the load path, all tangents are positive definite.
@@ -263,29 +278,27 @@ impl<'a, const D: usize> AtRest<'a, D> {
     }
 
     /// Starts at a place, or at the initial state, with the initial internal variables.
-    fn start(&mut self, place: Option<&Place<D>>) -> Result<(), StepFailure> {
-        self.search.begin(Start::Rest)?;
+    fn start(&mut self, place: Option<&Place>) -> Result<(), StepFailure> {
+        self.search.start()?;
         if let Some([moved, carries]) = place {
-            let trial = &mut self.search.solver.trial;
-            trial.displacements.copy_from_slice(moved);
-            trial.carries.copy_from_slice(carries);
+            let [own, own_carries] = self.search.place_mut();
+            own.copy_from_slice(moved);
+            own_carries.copy_from_slice(carries);
         }
         self.renew()
     }
 
-    fn place(&self) -> Place<D> {
-        let trial = &self.search.solver.trial;
-        [trial.displacements.clone(), trial.carries.clone()]
+    fn place(&self) -> Place {
+        let [moved, carries] = self.search.place();
+        [moved.to_vec(), carries.to_vec()]
     }
 
     /// The largest force out of balance, N, and its node if any moves.
     pub(crate) fn residual(&self) -> (f64, Option<usize>) {
-        let mut largest = (0.0, self.search.solver.nodes.first().map(|node| node.node));
-        for node in &self.search.solver.nodes {
-            for force in node.rows(self.search.solver.tangent.right()) {
-                if force.abs() > largest.0 {
-                    largest = (force.abs(), Some(node.node));
-                }
+        let mut largest = (0.0, self.nodes.first().map(|node| node.node));
+        for (row, force) in self.forces().iter().enumerate() {
+            if force.abs() > largest.0 {
+                largest = (force.abs(), Some(self.nodes[row / self.dimension].node));
             }
         }
         (largest.0 / LONG, largest.1)
@@ -293,8 +306,8 @@ impl<'a, const D: usize> AtRest<'a, D> {
 
     /// The places of all nodes, m.
     pub(crate) fn positions(&self) -> Vec<f64> {
-        let mut positions = self.search.view.state.positions.values().to_vec();
-        let moved = self.search.solver.trial.displacements.as_flattened();
+        let mut positions = self.view.state.positions.values().to_vec();
+        let [moved, _] = self.search.place();
         for (position, moved) in positions.iter_mut().zip(moved) {
             *position += moved;
         }

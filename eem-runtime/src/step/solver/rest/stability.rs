@@ -30,7 +30,7 @@ fn mixed(rows: usize) -> Vec<f64> {
         .collect()
 }
 
-impl<const D: usize> AtRest<'_, D> {
+impl AtRest<'_> {
     /// Whether the tangent is positive definite beyond rounding.
     pub(crate) fn is_stable(&mut self) -> bool {
         let rounding = self.rounding();
@@ -54,17 +54,18 @@ impl<const D: usize> AtRest<'_, D> {
         let mut relative = 0.0;
         for _ in 0..INVERSE_ITERATIONS {
             self.assemble_alone(shift).ok()?;
-            let right = weighted(D, &x, &sizes);
+            let right = weighted(self.dimension, &x, &sizes);
             self.set_right(&right);
-            self.search.solver.tangent.solve().ok()?;
+            self.search.tangent_mut().solve().ok()?;
             let found = self.solution();
             // (K + shift D) y = D x gives 1/(λ + shift) = xᵀ D y / xᵀ D x.
             relative = dot(&right, &x) / dot(&right, &found) - shift;
             let most = largest(&found);
             x = found.iter().map(|x| x / most).collect();
         }
-        let stiffness = relative * (dot(&weighted(D, &x, &sizes), &x) / LONG) / dot(&x, &x);
-        let nodes = self.search.solver.nodes.iter();
+        let weighted = weighted(self.dimension, &x, &sizes);
+        let stiffness = relative * (dot(&weighted, &x) / LONG) / dot(&x, &x);
+        let nodes = self.nodes.iter();
         Some(Softest {
             nodes: nodes.map(|node| node.node).collect(),
             motion: x,
@@ -77,8 +78,8 @@ impl<const D: usize> AtRest<'_, D> {
     /// Assembles the symmetric part of K plus a shift in units of D.
     fn assemble_alone(&mut self, shift: f64) -> Result<(), StepFailure> {
         self.renew()?;
-        if !self.search.solver.rockets.are_none() {
-            self.search.solver.tangent.symmetrize();
+        if !self.search.is_symmetric() {
+            self.search.tangent_mut().symmetrize();
         }
         self.shift(shift);
         Ok(())
@@ -86,7 +87,7 @@ impl<const D: usize> AtRest<'_, D> {
 
     fn judge(&mut self, shift: f64) -> bool {
         self.assemble_alone(shift).is_ok()
-            && self.search.solver.tangent.solve_and_judge() == Ok(true)
+            && self.search.tangent_mut().solve_and_judge() == Ok(true)
     }
 
     /// What rounding may contribute to eigenvalues of K, relative to D: entries have the rounding of element

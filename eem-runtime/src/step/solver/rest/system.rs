@@ -1,12 +1,9 @@
 //! The system of an iteration for a state at rest, and its updates.
 
-use core::ops::Range;
-
 use eem_material::number::scalar::Scalar;
 
 use super::{AtRest, LONG, Place};
 use crate::algebra::{dot, hypot, largest};
-use crate::element::tally::Care;
 use crate::scene::loads::extent;
 use crate::step::error::StepFailure;
 
@@ -27,16 +24,16 @@ pub(super) const ROUNDINGS: f64 = 64.0;
 const SETTLING: usize = 6;
 
 /// Where an update begins.
-pub(super) struct Begin<const D: usize> {
-    pub(super) place: Place<D>,
+pub(super) struct Begin {
+    pub(super) place: Place,
     /// R, N, and D per moving node, N/m.
     forces: Vec<f64>,
     sizes: Vec<f64>,
 }
 
 /// An update, as far as it was applied.
-pub(super) struct Update<const D: usize> {
-    pub(super) begin: Begin<D>,
+pub(super) struct Update {
+    pub(super) begin: Begin,
     /// The largest change, in lengths of elements.
     pub(super) size: f64,
     pub(super) is_definite: bool,
@@ -49,7 +46,7 @@ pub(super) struct Update<const D: usize> {
     pub(super) left: f64,
 }
 
-impl<const D: usize> Update<D> {
+impl Update {
     /// Whether the force along it at its end points backwards and exceeds [`OVERSHOOT`].
     pub(super) fn goes_too_far(&self) -> bool {
         self.left < -OVERSHOOT
@@ -81,28 +78,25 @@ fn largest_turn(dimension: usize, arms: &[[usize; 2]], places: &[f64], moved: &[
     largest
 }
 
-impl<const D: usize> AtRest<'_, D> {
+impl AtRest<'_> {
     /// Builds the system at the trial.
     pub(super) fn renew(&mut self) -> Result<(), StepFailure> {
-        self.search.solver.balance(self.search.view);
+        self.search.balance();
         self.assemble()
     }
 
     /// Evaluates the elements at a trial whose system has been started.
     pub(super) fn assemble(&mut self) -> Result<(), StepFailure> {
-        self.search.evaluate(true)?;
-        let (values, right) = self.search.solver.tangent.parts();
+        self.search.evaluate()?;
+        let (values, right) = self.search.tangent_mut().parts();
         let left = 1.0 - self.share;
+        for (force, first) in right.as_flattened_mut().iter_mut().zip(&self.first) {
+            *force -= left * first;
+        }
         self.sizes.clear();
-        for (at, node) in self.search.solver.nodes.iter().enumerate() {
-            let first = self.first.get(at * D..).unwrap_or_default();
-            for (force, first) in node.rows_mut(right).iter_mut().zip(first) {
-                *force -= left * first;
-            }
-            let sizes = node
-                .diagonal
-                .iter()
-                .map(|&place| values[place as usize].abs());
+        for node in &self.nodes {
+            let sizes = node.diagonal.iter();
+            let sizes = sizes.map(|&place| values[place as usize].abs());
             self.sizes.push(sizes.fold(0.0, f64::max));
         }
         fill_sizes(&mut self.sizes);
@@ -114,20 +108,20 @@ impl<const D: usize> AtRest<'_, D> {
 
     /// Makes D proportional to the masses, and nowhere smaller.
     fn weigh(&mut self) {
-        let (nodes, mut most) = (&self.search.solver.nodes, 0.0);
-        for (size, node) in self.sizes.iter().zip(nodes) {
+        let mut most = 0.0;
+        for (size, node) in self.sizes.iter().zip(&self.nodes) {
             most = Scalar::maximum(most, size / node.mass);
         }
-        for (size, node) in self.sizes.iter_mut().zip(nodes) {
+        for (size, node) in self.sizes.iter_mut().zip(&self.nodes) {
             *size = most * node.mass;
         }
     }
 
     /// Adds a shift, in units of D, to K.
     pub(super) fn shift(&mut self, shift: f64) {
-        let (values, _) = self.search.solver.tangent.parts();
-        for (node, size) in self.search.solver.nodes.iter().zip(&self.sizes) {
-            for place in node.diagonal {
+        let (values, _) = self.search.tangent_mut().parts();
+        for (node, size) in self.nodes.iter().zip(&self.sizes) {
+            for &place in &node.diagonal {
                 values[place as usize] += shift * size;
             }
         }
@@ -141,57 +135,55 @@ impl<const D: usize> AtRest<'_, D> {
     /// Whether the rounding of forces and of their arguments explains R: by node, with the terms of the forces of its
     /// elements as in the certificate of a step, of its loads, and of what is left of R(q⁰).
     pub(super) fn is_balanced(&mut self) -> bool {
-        self.search.find_motion(Care::Thorough);
-        let left = 1.0 - self.share;
-        let right = self.search.solver.tangent.right();
-        for (at, node) in self.search.solver.nodes.iter().enumerate() {
-            let first = self.first.get(at * D..).unwrap_or_default();
-            let loads = self.search.view.loads.total_force::<D>(node.node);
-            let magnitude = self.search.solver.magnitudes[node.node];
-            for (axis, force) in node.rows(right).iter().enumerate() {
-                let first = first.get(axis).map_or(0.0, |first| left * first.abs());
-                let terms = magnitude + LONG * loads[axis].abs() + first;
-                if !(force.abs() <= ROUNDINGS * f64::EPSILON * terms) {
-                    return false;
-                }
+        let (forces, left) = (self.forces(), 1.0 - self.share);
+        let magnitudes = self.search.magnitudes();
+        for (row, force) in forces.iter().enumerate() {
+            let node = self.nodes[row / self.dimension].node;
+            let first = self.first.get(row).map_or(0.0, |first| left * first.abs());
+            let place = node * self.dimension + row % self.dimension;
+            let load = self.view.loads.total_force.get(place);
+            let load = load.map_or(0.0, |load| LONG * load.abs());
+            let terms = magnitudes[node] + load + first;
+            if !(force.abs() <= ROUNDINGS * f64::EPSILON * terms) {
+                return false;
             }
         }
         true
     }
 
-    /// The entries of moving nodes in a vector of the system.
-    fn rows(&self) -> Range<usize> {
-        0..self.search.solver.nodes.len() * D
+    /// The number of rows of moving nodes, the first ones of the system.
+    fn rows(&self) -> usize {
+        self.nodes.len() * self.dimension
     }
 
     /// R, N.
     pub(crate) fn forces(&self) -> Vec<f64> {
-        self.search.solver.tangent.right().as_flattened()[self.rows()].to_vec()
+        self.search.tangent().right().as_flattened()[..self.rows()].to_vec()
     }
 
     /// The last update, m.
     pub(super) fn solution(&self) -> Vec<f64> {
-        self.search.solver.tangent.solution().as_flattened()[self.rows()].to_vec()
+        self.search.tangent().solution().as_flattened()[..self.rows()].to_vec()
     }
 
     /// Replaces R.
     pub(super) fn set_right(&mut self, forces: &[f64]) {
         let rows = self.rows();
-        let (_, right) = self.search.solver.tangent.parts();
-        right.as_flattened_mut()[rows].copy_from_slice(forces);
+        let (_, right) = self.search.tangent_mut().parts();
+        right.as_flattened_mut()[..rows].copy_from_slice(forces);
     }
 
     /// Solves the system with friction. Returns whether it is definite, which is not asked of one that is not symmetric.
     fn solve(&mut self, friction: f64) -> Result<bool, StepFailure> {
         self.shift(friction);
-        let is_symmetric = self.search.solver.rockets.are_none();
-        Ok(self.search.solver.tangent.solve_and_judge()? || !is_symmetric)
+        let is_symmetric = self.search.is_symmetric();
+        Ok(self.search.tangent_mut().solve_and_judge()? || !is_symmetric)
     }
 
     /// An update with friction, or by Newton's method without. It is applied as far as elements are admissible and,
     /// without friction, forces along it do not turn round. After an error nothing is applied; if the tangent is
     /// singular, the system has to be built again.
-    pub(super) fn update(&mut self, friction: f64) -> Result<Update<D>, StepFailure> {
+    pub(super) fn update(&mut self, friction: f64) -> Result<Update, StepFailure> {
         let begin = Begin {
             place: self.place(),
             forces: self.forces(),
@@ -249,12 +241,12 @@ impl<const D: usize> AtRest<'_, D> {
 
     /// Goes on with the iterations of a step against friction whose first one goes too far, `R(q) = μ D (q − q_n)`, until the
     /// force along the step does not turn round. Returns whether that was found.
-    pub(super) fn settle(&mut self, friction: f64, update: &mut Update<D>) -> bool {
+    pub(super) fn settle(&mut self, friction: f64, update: &mut Update) -> bool {
         let begin = &update.begin;
         for _ in 0..SETTLING {
             let (mut right, way) = (self.forces(), self.way_from(&begin.place));
             for (row, (force, way)) in right.iter_mut().zip(&way).enumerate() {
-                *force -= friction * begin.sizes[row / D] * way;
+                *force -= friction * begin.sizes[row / self.dimension] * way;
             }
             self.set_right(&right);
             self.sizes.clone_from(&begin.sizes);
@@ -280,34 +272,34 @@ impl<const D: usize> AtRest<'_, D> {
     }
 
     /// The displacements of moving nodes from a place, m.
-    fn way_from(&self, from: &Place<D>) -> Vec<f64> {
+    fn way_from(&self, from: &Place) -> Vec<f64> {
         let all = self.moved_from(from);
         let mut moved = Vec::with_capacity(self.first.len());
-        for node in &self.search.solver.nodes {
-            moved.extend_from_slice(&all[node.node * D..][..D]);
+        for node in &self.nodes {
+            let first = node.node * self.dimension;
+            moved.extend_from_slice(&all[first..first + self.dimension]);
         }
         moved
     }
 
     /// The displacements of all nodes from a place, m.
-    fn moved_from(&self, [from, _]: &Place<D>) -> Vec<f64> {
-        let now = self.search.solver.trial.displacements.as_flattened();
-        now.iter()
-            .zip(from.as_flattened())
-            .map(|(now, from)| now - from)
-            .collect()
+    fn moved_from(&self, [from, _]: &Place) -> Vec<f64> {
+        let [now, _] = self.search.place();
+        now.iter().zip(from).map(|(now, from)| now - from).collect()
     }
 
     /// The largest motion of an arm since it was at a place, in lengths of the arm there.
-    pub(super) fn turn(&self, from: &Place<D>) -> f64 {
-        largest_turn(D, &self.arms, &self.positions(), &self.moved_from(from))
+    pub(super) fn turn(&self, from: &Place) -> f64 {
+        largest_turn(
+            self.dimension,
+            &self.arms,
+            &self.positions(),
+            &self.moved_from(from),
+        )
     }
 
     /// Reduces the part of the last update that is applied, and starts the next system.
     pub(super) fn take_back(&mut self, part: f64, next: f64) {
-        (self.search.solver).take_back(self.search.view, part - next);
-        for group in &mut *self.search.groups {
-            group.apply(next);
-        }
+        self.search.take_back(part, next);
     }
 }
