@@ -31,41 +31,44 @@ impl<const D: usize> Explicit<D> {
     fn book_paths(&mut self, h: f64, next: &mut State) {
         let (stage, scratch) = (&mut self.stage, &mut self.scratch);
         let first = self.components.first_reservoir;
-        for path in &mut self.components.paths {
-            let [a, b] = path.ends;
-            let progress = &mut scratch.progress[path.component];
-            let [near, far] = &path.temperatures;
-            let ([flow, production], shift) =
-                PathRates::new(path.conductance, [near, far]).guarded(h);
-            if shift != 0.0 {
-                for (end, temperatures) in [(a, [near, far]), (b, [far, near])] {
-                    if stage.is_held(end) {
-                        let thermostat = &mut stage.thermostats[end];
-                        shift_weights(thermostat, shift, path.conductance, temperatures);
+        for (component, progress) in self.components.all.iter().zip(&mut scratch.progress) {
+            let (mut all, mut least) = (progress.production, progress.least);
+            for path in &mut self.components.paths[component.paths.clone()] {
+                let [a, b] = path.ends;
+                let [near, far] = &path.temperatures;
+                let ([flow, production], shift) =
+                    PathRates::new(path.conductance, [near, far]).guarded(h);
+                if shift != 0.0 {
+                    for (end, temperatures) in [(a, [near, far]), (b, [far, near])] {
+                        if stage.is_held(end) {
+                            let thermostat = &mut stage.thermostats[end];
+                            shift_weights(thermostat, shift, path.conductance, temperatures);
+                        }
+                    }
+                }
+                path.production = production;
+                all.add(production);
+                // The closing does not change production that neither end stores.
+                if path.stores == [false; 2] {
+                    scratch.least = Scalar::minimum(scratch.least, production);
+                } else {
+                    least = Scalar::minimum(least, production);
+                }
+                next.entropies.add(a, flow);
+                // One by one: the production is far below the rounding of the flow where θ_b is near θ_a.
+                let changes = [-flow, production];
+                if let Some(share) = path.share {
+                    for change in changes {
+                        self.books.shares[share].add(change);
+                        next.reservoir_entropies.add(b - first, change);
+                    }
+                } else {
+                    for change in changes {
+                        next.entropies.add(b, change);
                     }
                 }
             }
-            path.production = production;
-            progress.production.add(production);
-            // The closing does not change production that neither end stores.
-            let least = match path.stores {
-                [false, false] => &mut scratch.least,
-                _ => &mut progress.least,
-            };
-            *least = Scalar::minimum(*least, production);
-            next.entropies.add(a, flow);
-            // One by one: the production is far below the rounding of the flow where θ_b is near θ_a.
-            let changes = [-flow, production];
-            if let Some(share) = path.share {
-                for change in changes {
-                    self.books.shares[share].add(change);
-                    next.reservoir_entropies.add(b - first, change);
-                }
-            } else {
-                for change in changes {
-                    next.entropies.add(b, change);
-                }
-            }
+            (progress.production, progress.least) = (all, least);
         }
     }
 

@@ -6,7 +6,7 @@ use super::tableau::{
 };
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
-use crate::element::group::Past;
+use crate::element::group::{Past, Stage};
 use crate::step::error::StepFailure;
 
 /// The row of the rates of each stage: those of stages 1 and 2 are needed by the next two stages only, and the last two
@@ -48,16 +48,17 @@ pub(super) fn unclosed<const N: usize, const P: usize>(past: &Past<N, P>, h: f64
     clippy::inline_always,
     reason = "rows and coefficients are constants of the caller"
 )]
-fn combine_inner<const T: usize>(
-    (inner, rates, past): (&mut [f64], &mut [f64], &mut [Past<1, 2>]),
+fn combine_inner<const D: usize, const T: usize>(
+    stage: &mut Stage<D>,
     last: usize,
     h: f64,
     rows: [usize; T],
     a: &[f64; T],
 ) {
-    let inner = inner.as_chunks_mut().0.as_chunks_mut().0;
-    let rates = rates.as_chunks_mut().0.as_chunks_mut().0;
-    for ((now, rates), past) in inner.iter_mut().zip(rates).zip(past) {
+    let inner = stage.inner.as_chunks_mut().0.as_chunks_mut().0;
+    let rates = stage.inner_rates.as_chunks_mut().0.as_chunks_mut().0;
+    let pairs = inner.iter_mut().zip(rates).zip(&mut stage.inner_past);
+    for ((now, rates), past) in pairs {
         if last == 0 {
             past.start = *now;
         }
@@ -121,9 +122,7 @@ impl<const D: usize> Explicit<D> {
             place.now = place.past.advance(&place.rates, h, rows, a);
             place.begin_rates();
         }
-        let stage = &mut self.stage;
-        let inner = (&mut stage.inner[..], &mut stage.inner_rates[..]);
-        combine_inner((inner.0, inner.1, &mut stage.inner_past), last, h, rows, a);
+        combine_inner(&mut self.stage, last, h, rows, a);
     }
 
     /// Sets what is prescribed at a stage, and the loads.
@@ -195,6 +194,7 @@ impl<const D: usize> Explicit<D> {
             let [near, far] = [theta[a], theta[b]];
             let flow = path.conductance * (far - near);
             rates[a] += flow;
+            // That of a reservoir is not used.
             rates[b] -= flow;
             if let Some(at) = weight {
                 (path.temperatures[0][at], path.temperatures[1][at]) = (near, far);

@@ -88,7 +88,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
         let at = self.model.rates_at(x);
         let thermal = self.slot();
         let free = thermal.filter(|&slot| !view.stage.is_held(slot));
-        let recovered = match free.map(|slot| view.next.entropies.values()[slot]) {
+        let stored = free.map(|slot| view.next.entropies.values()[slot]);
+        let recovered = match stored {
             Some(entropy) => self.temperature_of(&x, &at, [entropy, theta], view.unkept)?,
             None => Recovered::given(theta, at(theta)),
         };
@@ -107,10 +108,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
         unless_infinite(self.element, psi)?;
         let mut energy = Energy::without_temperature(psi);
         if let Some(slot) = thermal {
-            if free.is_none() {
+            let kept = stored.unwrap_or_else(|| {
                 view.next.entropies.set(slot, entropy);
-            }
-            let kept = view.next.entropies.values()[slot];
+                entropy
+            });
             let capacity = rates.forces[Self::TEMPERATURE];
             Infeasible::unless_stable(capacity, theta)
                 .map_err(|infeasible| infeasible.of(self.element))?;

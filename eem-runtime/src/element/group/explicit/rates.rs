@@ -19,6 +19,11 @@ use eem_material::number::scalar::is_positive;
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
     pub(super) fn rates_of_all(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
+        // Known from here on, so that an index is checked once for both.
+        assert!(
+            stage.inner.len() == stage.inner_rates.len(),
+            "each internal variable has a rate"
+        );
         for point in &self.points {
             let r = arms_of::<K, D>(&point.nodes, &stage.places, Place::q);
             let measures = point.kinematics.measure(&r);
@@ -166,14 +171,14 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
             // With temperature, θ̇ contains the heat of the dashpot and is checked itself.
             is_sound &= is_thermal || is_number(creep);
         }
-        let Some(slot) = self.slot() else {
+        if !is_thermal {
             return is_sound && is_number(power);
-        };
+        }
         let capacity = forces[Self::TEMPERATURE];
         let heating = (heat - found.theta * drift) / capacity;
         stage.inner_rates[at] = heating;
         if stage.has_thermostats {
-            stage.receive(slot, heat);
+            stage.receive(at, heat);
         }
         is_sound &= is_number(heating);
         let is_stable = capacity > 0.0 && found.theta > 0.0;

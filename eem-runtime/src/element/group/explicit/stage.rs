@@ -47,10 +47,9 @@ impl<const N: usize, const P: usize> Past<N, P> {
         sums
     }
 
-    /// Stores the newest rates in the last row; `y = y⁰ + h Σ a k`.
+    /// Stores the newest rates in the last row; `y = y⁰ + h Σ a k`. In one loop, so that they are not loaded again.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as above")]
-    #[expect(clippy::needless_range_loop, reason = "as above")]
     pub(crate) fn advance<const T: usize>(
         &mut self,
         newest: &[[f64; N]; P],
@@ -328,13 +327,14 @@ impl<const D: usize> Stage<D> {
         self.heats[dashpot] += self.weight * power;
     }
 
-    /// Takes the heat of dashpots and paths that a thermal slot receives, W. If a thermostat prescribes the temperature,
-    /// sets its rate to zero.
+    /// Takes the heat of dashpots and paths that the element with a temperature receives, given its index among the internal
+    /// variables, W. If a thermostat prescribes the temperature, sets its rate to zero.
     #[cold]
-    pub(crate) fn receive(&mut self, slot: usize, heat: f64) {
-        self.thermostats[slot].received = heat;
-        if self.thermostats[slot].holds {
-            self.inner_rates[self.temperatures + slot] = 0.0;
+    pub(crate) fn receive(&mut self, temperature: usize, heat: f64) {
+        let thermostat = &mut self.thermostats[temperature - self.temperatures];
+        thermostat.received = heat;
+        if thermostat.holds {
+            self.inner_rates[temperature] = 0.0;
         }
     }
 
