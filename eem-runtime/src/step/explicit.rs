@@ -121,7 +121,7 @@ impl<const D: usize> Explicit<D> {
             Components::new(site.masses, site.elements, site.layout, site.conduction);
         let place_of = components.place_of();
         for group in &mut groups {
-            group.join(&components.of_element, &place_of);
+            group.join((&components.of_element, site.layout.viscous), &place_of);
         }
         let reservoirs = &site.conduction.reservoirs;
         let prescribed = Prescribed::new(site.loads, site.layout, &components);

@@ -234,8 +234,9 @@ pub(crate) trait ExplicitGroup<const D: usize>: Send + Sync {
     /// The elements without a scheme.
     fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>>;
 
-    /// Takes the component of each element, and the places of its nodes by component and node; called once per scene.
-    fn join(&mut self, component_of: &[u32], place_of: &dyn Fn(u32, u32) -> u32);
+    /// Takes the component of each element and the index of the first temperature among the internal variables, and the places of
+    /// nodes by component and node; called once per scene.
+    fn join(&mut self, elements: (&[u32], usize), place_of: &dyn Fn(u32, u32) -> u32);
 
     /// Adds the forces and writes the rates at a stage.
     fn rates(&self, stage: &mut Stage<D>) -> Result<(), StateError>;

@@ -126,7 +126,7 @@ impl<const D: usize> Explicit<D> {
             next.positions.set_point(moved.node.index, end);
         }
         for dashpot in 0..self.stage.temperatures {
-            next.viscous.set(dashpot, self.stage.inner[dashpot].now);
+            next.viscous.set(dashpot, self.stage.inner[dashpot]);
         }
         for (slot, theta) in next.temperatures.iter_mut().enumerate() {
             *theta = self.stage.theta(slot);

@@ -30,40 +30,45 @@ impl<const D: usize> Explicit<D> {
     #[inline]
     fn book_paths(&mut self, h: f64, next: &mut State) {
         let (stage, scratch) = (&mut self.stage, &mut self.scratch);
-        let slots = scratch.produced.len();
-        for path in &mut self.components.paths {
-            let [a, b] = path.ends;
-            let progress = &mut scratch.progress[path.component];
-            let [near, far] = &path.temperatures;
-            let ([flow, production], shift) =
-                PathRates::new(path.conductance, [near, far]).guarded(h);
-            if shift != 0.0 {
-                for (end, temperatures) in [(a, [near, far]), (b, [far, near])] {
-                    if stage.is_held(end) {
-                        let thermostat = &mut stage.thermostats[end];
-                        shift_weights(thermostat, shift, path.conductance, temperatures);
+        let first = self.components.first_reservoir;
+        for (component, progress) in self.components.all.iter().zip(&mut scratch.progress) {
+            let (mut all, mut least) = (progress.production, progress.least);
+            for path in &mut self.components.paths[component.paths.clone()] {
+                let [a, b] = path.ends;
+                let [near, far] = &path.temperatures;
+                let ([flow, production], shift) =
+                    PathRates::new(path.conductance, [near, far]).guarded(h);
+                if shift != 0.0 {
+                    for (end, temperatures) in [(a, [near, far]), (b, [far, near])] {
+                        if stage.is_held(end) {
+                            let thermostat = &mut stage.thermostats[end];
+                            shift_weights(thermostat, shift, path.conductance, temperatures);
+                        }
                     }
                 }
-            }
-            path.production = production;
-            progress.production.add(production);
-            // The closing does not change production that neither end stores.
-            let least = match path.stores {
-                [false, false] => &mut scratch.least,
-                _ => &mut progress.least,
-            };
-            *least = Scalar::minimum(*least, production);
-            next.entropies.add(a, flow);
-            // One by one: the production is far below the rounding of the flow where θ_b is near θ_a.
-            for change in [-flow, production] {
-                match path.share {
-                    None => next.entropies.add(b, change),
-                    Some(share) => {
+                path.production = production;
+                all.add(production);
+                // The closing does not change production that neither end stores.
+                if path.stores == [false; 2] {
+                    scratch.least = Scalar::minimum(scratch.least, production);
+                } else {
+                    least = Scalar::minimum(least, production);
+                }
+                next.entropies.add(a, flow);
+                // One by one: the production is far below the rounding of the flow where θ_b is near θ_a.
+                let changes = [-flow, production];
+                if let Some(share) = path.share {
+                    for change in changes {
                         self.books.shares[share].add(change);
-                        next.reservoir_entropies.add(b - slots, change);
+                        next.reservoir_entropies.add(b - first, change);
+                    }
+                } else {
+                    for change in changes {
+                        next.entropies.add(b, change);
                     }
                 }
             }
+            (progress.production, progress.least) = (all, least);
         }
     }
 
@@ -82,7 +87,7 @@ impl<const D: usize> Explicit<D> {
                 continue;
             };
             next.entropies.add(slot, production);
-            scratch.produced[slot] += production;
+            scratch.slots[slot].produced += production;
             progress.production.add(production);
             progress.least = Scalar::minimum(progress.least, production);
         }
@@ -148,7 +153,7 @@ impl<const D: usize> Explicit<D> {
                 let mut mean = mass.past.start[1];
                 add(&mut mean, 0.5, &impulse);
                 let way = difference(mass.q(), &mass.past.start[0]);
-                work = dot(&impulse, &mean) * mass.per_mass - dot(&mass.force, &way);
+                work = dot(&impulse, &mean) * mass.per_mass() - dot(&mass.force, &way);
             }
             target.energy.add(work);
             next.work.add(work);
@@ -191,12 +196,12 @@ impl<const D: usize> Explicit<D> {
         for path in &self.components.paths {
             let capacity = |at: usize| {
                 let slot = path.stores[at].then_some(path.ends[at]);
-                slot.map_or(0.0, |slot| scratch.capacities[slot][0])
+                slot.map_or(0.0, |slot| scratch.slots[slot].capacity)
             };
             let [a, b] = [capacity(0), capacity(1)];
             for (end, capacity) in path.ends.into_iter().zip([a, b]) {
                 if a + b > 0.0 && capacity > 0.0 {
-                    scratch.produced[end] += path.production * (capacity / (a + b));
+                    scratch.slots[end].produced += path.production * (capacity / (a + b));
                 }
             }
         }

@@ -113,7 +113,7 @@ impl<const D: usize> Explicit<D> {
         let mut view = ClosingView {
             open: &scratch.open,
             stage: &mut self.stage,
-            capacities: &mut scratch.capacities,
+            slots: &mut scratch.slots,
             unkept: &mut scratch.unkept,
             next,
             energies: &mut scratch.energies,

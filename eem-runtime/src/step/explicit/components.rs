@@ -10,6 +10,7 @@ use super::guard::PerWeight;
 use crate::algebra::vector;
 use crate::element::conduction::{Conduction, Partner};
 use crate::element::ends::Ends;
+use crate::element::group::first_reservoir;
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
 use crate::element::state::{Energy, State};
@@ -56,7 +57,7 @@ impl Component {
 /// A path of heat.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Path {
-    /// The thermal slots at both ends; reservoirs are numbered after all thermal slots.
+    /// The thermal slots at both ends; reservoirs are numbered from [`first_reservoir`] on.
     pub(super) ends: [usize; 2],
     /// Whether each end stores entropy: neither reservoirs do, nor elements with a thermostat.
     pub(super) stores: [bool; 2],
@@ -107,6 +108,8 @@ pub(super) struct Components {
     pub(super) dashpots: Vec<Dashpot>,
     /// The element of each thermal slot.
     pub(super) elements: Vec<usize>,
+    /// See [`first_reservoir`].
+    pub(super) first_reservoir: usize,
 }
 
 /// Disjoint sets that are merged: each member points to another one of its set, the first to itself.
@@ -175,6 +178,7 @@ impl Components {
                 .map(|&component| compact(component))
                 .collect(),
             elements: slot_elements,
+            first_reservoir: first_reservoir(layout),
         };
         components.fill(&numbers, count, masses, conduction);
         components.place_anchors(masses, elements);
@@ -294,7 +298,7 @@ impl Components {
                         component,
                         reservoir,
                     };
-                    (self.elements.len() + reservoir, Some(self.index_of(share)))
+                    (self.first_reservoir + reservoir, Some(self.index_of(share)))
                 }
             };
             self.paths.push(Path {

@@ -237,8 +237,8 @@ impl<const D: usize> Explicit<D> {
             see(hypot(&difference(place.p(), &before[1])), momentum);
         }
         let change = |at: usize| {
-            let [before] = unclosed(&self.stage.inner_past[at / 2], view.step);
-            (self.stage.inner[at].now - before[at % 2]).abs()
+            let before = unclosed(&self.stage.inner_past[at / 2], view.step);
+            (self.stage.inner[at] - before[at % 2][0]).abs()
         };
         for dashpot in self.components.dashpots_of(index) {
             see(change(dashpot), stretch);
@@ -313,21 +313,21 @@ impl<const D: usize> Explicit<D> {
             }
         }
         for (pair, past) in self.stage.inner_past.iter().enumerate() {
-            let [[fifth], [third]] = errors(past);
+            let [fifth, third] = errors(past);
             for at in 0..2 {
                 let index = 2 * pair + at;
                 let (unknown, per_scale) = if index < first {
                     (Unknown::Viscous(index), stretch)
                 } else {
                     let slot = index - first;
-                    let theta = past.start[0][at];
+                    let theta = past.start[at][0];
                     let mut scale = [per(tolerance.relative * theta + tolerance.temperature), 0.0];
                     if ROUNDED {
                         scale = rounded(scale[0], self.rounding.temperature(slot));
                     }
                     (Unknown::Temperature(slot), scale)
                 };
-                see(unknown, [fifth[at], third[at]], per_scale);
+                see(unknown, [fifth[at][0], third[at][0]], per_scale);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::algebra::bivector::{Bivector, planes};
 use crate::algebra::{add, dot, size};
-use crate::element::group::{ComponentEnergy, Place, UnkeptEntropy};
+use crate::element::group::{Caloric, ComponentEnergy, Place, UnkeptEntropy};
 use crate::element::layout::Layout;
 use crate::step::explicit::components::Components;
 use eem_material::number::compensated::{Sum, Total};
@@ -265,9 +265,8 @@ pub(super) struct Scratch<const D: usize> {
     /// Whether a component has to be evaluated, and whether its forces are needed.
     pub(super) open: Vec<bool>,
     pub(super) needs_forces: Vec<bool>,
-    /// c and `|∂c/∂ ln θ|` per thermal slot, and what it has produced itself in this step, J/K.
-    pub(super) capacities: Vec<[f64; 2]>,
-    pub(super) produced: Vec<f64>,
+    /// Per thermal slot.
+    pub(super) slots: Vec<Caloric>,
     /// An element whose stored entropy does not match its temperature after the closing, if there is one.
     pub(super) unkept: Option<UnkeptEntropy>,
     /// Per thermal slot.
@@ -314,8 +313,13 @@ impl<const D: usize> Motion<D> {
         let p = place.p();
         add(&mut self.linear, 1.0, p);
         self.angular.add(1.0, &Bivector::wedge(arm, p));
+    }
+
+    /// Adds their terms.
+    #[inline]
+    pub(super) fn add_terms(&mut self, place: &Place<D>, arm: &[f64; D]) {
         // Below the smallest normal number, rounding is that of this number.
-        let momentum = size(p) + f64::MIN_POSITIVE;
+        let momentum = size(place.p()) + f64::MIN_POSITIVE;
         self.terms[0] += momentum;
         self.terms[1] += farther(arm, place.q()) * momentum;
     }
@@ -324,8 +328,9 @@ impl<const D: usize> Motion<D> {
     #[inline]
     pub(super) fn add(&mut self, place: &Place<D>, arm: &[f64; D]) {
         self.add_momenta(place, arm);
+        self.add_terms(place, arm);
         let (q, p) = (place.q(), place.p());
-        let kinetic = 0.5 * dot(p, p) * place.per_mass;
+        let kinetic = 0.5 * dot(p, p) * place.per_mass();
         self.energy.add(kinetic);
         self.kinetic += kinetic;
         self.magnitude += kinetic;
@@ -350,8 +355,7 @@ impl<const D: usize> Scratch<D> {
             energies: vec![ComponentEnergy::none(); count],
             open: vec![false; count],
             needs_forces: vec![false; count],
-            capacities: vec![[0.0; 2]; thermal],
-            produced: vec![0.0; thermal],
+            slots: vec![Caloric::default(); thermal],
             unkept: None,
             held: vec![HeldBalance::default(); thermal],
             forces: vec![[0.0; D]; components.nodes.len()],
@@ -372,7 +376,7 @@ impl<const D: usize> Scratch<D> {
     pub(super) fn clear(&mut self, h: f64) {
         self.subnormal = f64::MIN_POSITIVE * (1.0 + h);
         self.progress.fill(Progress::none());
-        self.produced.fill(0.0);
+        self.slots.fill(Caloric::default());
         self.held.fill(HeldBalance::default());
         self.unkept = None;
         self.has_stiffnesses = false;

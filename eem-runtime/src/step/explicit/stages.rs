@@ -6,7 +6,7 @@ use super::tableau::{
 };
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
-use crate::element::group::{Inner, Past};
+use crate::element::group::{Past, Stage};
 use crate::step::error::StepFailure;
 
 /// The row of the rates of each stage: those of stages 1 and 2 are needed by the next two stages only, and the last two
@@ -48,21 +48,22 @@ pub(super) fn unclosed<const N: usize, const P: usize>(past: &Past<N, P>, h: f64
     clippy::inline_always,
     reason = "rows and coefficients are constants of the caller"
 )]
-fn combine_inner<const T: usize>(
-    (inner, past): (&mut [Inner], &mut [Past<2, 1>]),
+fn combine_inner<const D: usize, const T: usize>(
+    stage: &mut Stage<D>,
     last: usize,
     h: f64,
     rows: [usize; T],
     a: &[f64; T],
 ) {
-    let pairs = inner.as_chunks_mut::<2>().0;
-    for (pair, past) in pairs.iter_mut().zip(past) {
+    let inner = stage.inner.as_chunks_mut().0.as_chunks_mut().0;
+    let rates = stage.inner_rates.as_chunks_mut().0.as_chunks_mut().0;
+    let pairs = inner.iter_mut().zip(rates).zip(&mut stage.inner_past);
+    for ((now, rates), past) in pairs {
         if last == 0 {
-            past.start = [[pair[0].now, pair[1].now]];
+            past.start = *now;
         }
-        past.rates[ROWS[last]] = [[pair[0].rate, pair[1].rate]];
-        let [[first, second]] = past.after(h, rows, a);
-        *pair = [Inner::new(first), Inner::new(second)];
+        *now = past.advance(rates, h, rows, a);
+        *rates = [[0.0]; 2];
     }
 }
 
@@ -118,12 +119,10 @@ impl<const D: usize> Explicit<D> {
             if last == 0 {
                 place.past.start = place.now;
             }
-            place.past.rates[ROWS[last]] = place.rates;
-            place.now = place.past.after(h, rows, a);
+            place.now = place.past.advance(&place.rates, h, rows, a);
             place.begin_rates();
         }
-        let (inner, past) = (&mut self.stage.inner, &mut self.stage.inner_past);
-        combine_inner((inner, past), last, h, rows, a);
+        combine_inner(&mut self.stage, last, h, rows, a);
     }
 
     /// Sets what is prescribed at a stage, and the loads.
@@ -188,16 +187,15 @@ impl<const D: usize> Explicit<D> {
         if self.components.paths.is_empty() {
             return;
         }
-        let inner = &mut self.stage.inner[self.stage.temperatures..];
+        let theta = &self.stage.inner[self.stage.temperatures..];
+        let rates = &mut self.stage.inner_rates[self.stage.temperatures..][..theta.len()];
         for path in &mut self.components.paths {
             let [a, b] = path.ends;
-            let [near, far] = [inner[a].now, inner[b].now];
+            let [near, far] = [theta[a], theta[b]];
             let flow = path.conductance * (far - near);
-            inner[a].rate += flow;
-            // A reservoir keeps its temperature.
-            if path.share.is_none() {
-                inner[b].rate -= flow;
-            }
+            rates[a] += flow;
+            // That of a reservoir is not used.
+            rates[b] -= flow;
             if let Some(at) = weight {
                 (path.temperatures[0][at], path.temperatures[1][at]) = (near, far);
             }
@@ -210,9 +208,7 @@ impl<const D: usize> Explicit<D> {
         for place in &mut self.stage.places[..self.components.masses] {
             place.begin_rates();
         }
-        for own in &mut self.stage.inner {
-            own.rate = 0.0;
-        }
+        self.stage.inner_rates.fill(0.0);
         if self.loads.has_total_force() {
             self.apply_loads();
         }
@@ -220,7 +216,7 @@ impl<const D: usize> Explicit<D> {
             self.move_to(STAGES - 1);
         }
         self.stage.weight = 0.0;
-        self.conduct(None);
+        self.conduct(Some(0));
         for group in &self.groups {
             group.finish(&mut self.stage)?;
         }

@@ -5,7 +5,7 @@ use super::memory::Target;
 use super::outside::copy_loads;
 use super::tableau::WEIGHTS;
 use super::{Explicit, ExplicitView};
-use crate::element::group::{ComponentEnergy, Inner, points};
+use crate::element::group::{ComponentEnergy, points};
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use eem_material::number::compensated::Sum;
@@ -34,11 +34,6 @@ impl<const D: usize> Explicit<D> {
         }
         if view.state.meters.are_on {
             self.begin_heats();
-        }
-        for path in &mut self.components.paths {
-            let [a, b] = path.ends;
-            path.temperatures[0][0] = self.stage.theta(a);
-            path.temperatures[1][0] = self.stage.theta(b);
         }
         if self.is_driven {
             self.begin_outside();
@@ -76,14 +71,15 @@ impl<const D: usize> Explicit<D> {
             place.force = self.loads.total_force(node);
             place.begin_rates();
         }
-        let mut inner = stage.inner.iter_mut();
-        for values in [
-            state.viscous.values(),
-            &state.temperatures,
-            &view.conduction.reservoirs,
-        ] {
-            for (&value, own) in values.iter().zip(&mut inner) {
-                *own = Inner::new(value);
+        stage.inner_rates.fill(0.0);
+        let (stretches, temperatures) = stage.inner.split_at_mut(stage.temperatures);
+        let (slots, reservoirs) = temperatures.split_at_mut(self.components.first_reservoir);
+        stretches.copy_from_slice(state.viscous.values());
+        slots[..state.temperatures.len()].copy_from_slice(&state.temperatures);
+        reservoirs.copy_from_slice(&view.conduction.reservoirs);
+        for path in &mut self.components.paths {
+            for (temperatures, end) in path.temperatures.iter_mut().zip(path.ends) {
+                temperatures[0] = stage.theta(end);
             }
         }
         Ok(())

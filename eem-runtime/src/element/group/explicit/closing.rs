@@ -5,7 +5,7 @@ use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::group::arms::add_scaled;
 use crate::element::group::explicit::closed::Closed;
-use crate::element::group::explicit::group::ExplicitElements;
+use crate::element::group::explicit::group::{ExplicitElements, Spot};
 use crate::element::group::explicit::rates::arms_of;
 use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::explicit::temperature::Recovered;
@@ -18,11 +18,10 @@ use eem_material::free_energy::{Array, Material};
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::close`](super::ExplicitGroup::close).
     pub(super) fn close_all(&mut self, view: &mut ClosingView<'_, D>) -> Result<(), StateError> {
-        let members = self.elements.members.iter().zip(&self.places);
-        for ((member, &(component, ref nodes)), closed) in members.zip(&mut self.closed) {
-            if view.open[component as usize] {
-                let r = arms_of::<K, D>(nodes, &view.stage.places, Place::q);
-                member.only().close_at(&r, component, view, closed)?;
+        let members = self.elements.members.iter().zip(&self.spots);
+        for ((member, spot), closed) in members.zip(&mut self.closed) {
+            if view.open[spot.component as usize] {
+                member.only().close_at(spot, view, closed)?;
             }
         }
         Ok(())
@@ -35,9 +34,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
         forces: &mut [[f64; D]],
         creep: &mut [[f64; 2]],
     ) {
-        let members = self.elements.members.iter().zip(&self.places);
-        for ((member, (component, nodes)), closed) in members.zip(&self.closed) {
-            if !components[*component as usize] {
+        let members = self.elements.members.iter().zip(&self.spots);
+        for ((member, spot), closed) in members.zip(&self.closed) {
+            let nodes = &spot.nodes;
+            if !components[spot.component as usize] {
                 continue;
             }
             let mut pull = Arms::<K, D>::filled([0.0; D]);
@@ -61,14 +61,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
 
     /// See [`ExplicitGroup::finish`](super::ExplicitGroup::finish).
     pub(super) fn finish_all(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
-        for ((point, nodes), closed) in self.placed().zip(&self.closed) {
-            if !point.write_rates(
-                nodes,
-                &closed.at(point.temperature_in(stage), point.dashpots()),
-                stage,
-            ) {
-                let r = arms_of::<K, D>(&nodes, &stage.places, Place::q);
-                return Err(point.refuse(&r, stage));
+        for ((point, spot), closed) in self.placed().zip(&self.closed) {
+            let theta = spot.temperature_in(stage, M::THERMAL);
+            let found = closed.at(theta, point.dashpots());
+            if !point.write_rates(spot.nodes, spot.temperature, &found, stage) {
+                return Err(point.refuse(spot, stage));
             }
         }
         Ok(())
@@ -76,25 +73,23 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
-    /// Finds temperature and energy with these arms.
+    /// Finds temperature and energy.
     #[inline]
     fn close_at(
         &self,
-        r: &Arms<K, D>,
-        component: u32,
+        spot: &Spot<K::PerNode<u32>>,
         view: &mut ClosingView<'_, D>,
         closed: &mut Closed<M, K, D>,
     ) -> Result<(), StateError> {
-        let measures = self.kinematics.measure(r);
-        if !self.kinematics.is_admissible(r, &measures) {
-            return Err(self.kinematics.refusal(self.element, r));
-        }
-        let theta = self.temperature_in(view.stage);
+        let r = &arms_of::<K, D>(&spot.nodes, &view.stage.places, Place::q);
+        let measures = self.admissible_measures(r)?;
+        let theta = spot.temperature_in(view.stage, M::THERMAL);
         let x = self.variables_at(&measures, view.stage, theta);
         let at = self.model.rates_at(x);
         let thermal = self.slots().thermal;
         let free = thermal.filter(|&slot| !view.stage.is_held(slot));
-        let recovered = match free.map(|slot| view.next.entropies.values()[slot]) {
+        let stored = free.map(|slot| view.next.entropies.values()[slot]);
+        let recovered = match stored {
             Some(entropy) => self.temperature_of(&x, &at, [entropy, theta], view.unkept)?,
             None => Recovered::given(theta, at(theta)),
         };
@@ -113,10 +108,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         self.unless_infinite(psi)?;
         let mut energy = Energy::without_temperature(psi);
         if let Some(slot) = thermal {
-            if free.is_none() {
+            let kept = stored.unwrap_or_else(|| {
                 view.next.entropies.set(slot, entropy);
-            }
-            let kept = view.next.entropies.values()[slot];
+                entropy
+            });
             let capacity = rates.forces[Self::TEMPERATURE];
             Infeasible::unless_stable(capacity, theta)
                 .map_err(|infeasible| infeasible.of(self.element))?;
@@ -125,12 +120,13 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             let heat = theta * (kept.abs() + capacity);
             energy.magnitude = energy.value.abs() + heat;
             energy.terms += heat;
-            *view.stage.theta_mut(slot) = recovered.corrected;
-            view.capacities[slot] = [capacity, recovered.bend];
+            view.stage.inner[spot.temperature as usize] = recovered.corrected;
+            let caloric = &mut view.slots[slot];
+            (caloric.capacity, caloric.bend) = (capacity, recovered.bend);
         }
         self.add_bounds_of(r, x, &mut found, &mut energy);
         *closed = found;
-        self.write_energy(component, &energy, view);
+        self.write_energy(spot.component, &energy, view);
         Ok(())
     }
 

@@ -11,14 +11,24 @@ use crate::element::group::loose::LooseElements;
 use crate::element::group::placed::PlacedPoint;
 use crate::element::group::view::Placed;
 use crate::element::kinematics::{Kinematics, QuadraticStrain};
-use eem_material::free_energy::{Array, Material};
+use eem_material::free_energy::Material;
+use eem_material::number::compact::compact;
+
+/// Where an element is in a stage.
+pub(super) struct Spot<N> {
+    pub(super) component: u32,
+    /// The index of its temperature among the internal variables, if it has one.
+    pub(super) temperature: u32,
+    /// The indices of its nodes among the places.
+    pub(super) nodes: N,
+}
 
 /// Springs of the model `M` with the kinematics `K`. Their forces follow from the state alone.
 pub(crate) struct ExplicitElements<M: Material, K: Kinematics<D>, const D: usize> {
     /// The elements in a state.
     pub(super) elements: ElementGroup<M, K, D>,
-    /// Per element: its component, and the indices of its nodes among the places of a stage.
-    pub(super) places: Vec<(u32, K::PerNode<u32>)>,
+    /// Per element.
+    pub(super) spots: Vec<Spot<K::PerNode<u32>>>,
     /// Per element: its last evaluation in a closing.
     pub(super) closed: Vec<Closed<M, K, D>>,
     /// The elements without a scheme, whose models may be behind a table.
@@ -35,18 +45,20 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
         let elements = ElementGroup::new(scheme, elements, placed);
         let count = elements.members.len();
         Self {
-            places: vec![(0, K::PerNode::filled(0)); count],
+            spots: Vec::with_capacity(count),
             closed: (0..count).map(|_| Closed::none()).collect(),
             elements,
             loose,
         }
     }
 
-    /// All elements, each with the places of its nodes.
+    /// All elements with their spots.
     #[inline]
-    pub(super) fn placed(&self) -> impl Iterator<Item = (&PlacedPoint<M, K, D>, K::PerNode<u32>)> {
-        let members = self.elements.members.iter().zip(&self.places);
-        members.map(|(member, &(_, nodes))| (member.only(), nodes))
+    pub(super) fn placed(
+        &self,
+    ) -> impl Iterator<Item = (&PlacedPoint<M, K, D>, &Spot<K::PerNode<u32>>)> {
+        let members = self.elements.members.iter().zip(&self.spots);
+        members.map(|(member, spot)| (member.only(), spot))
     }
 }
 
@@ -65,13 +77,24 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> ExplicitGroup<D>
         self.loose
     }
 
-    fn join(&mut self, component_of: &[u32], place_of: &dyn Fn(u32, u32) -> u32) {
-        let members = self.elements.members.iter().zip(&mut self.places);
-        for (member, (component, places)) in members {
-            *component = component_of[member.only().element.index()];
-            for (place, &node) in places.as_mut().iter_mut().zip(member.site.nodes.as_ref()) {
-                *place = place_of(*component, node);
+    fn join(
+        &mut self,
+        (component_of, first_temperature): (&[u32], usize),
+        place_of: &dyn Fn(u32, u32) -> u32,
+    ) {
+        for member in &self.elements.members {
+            let point = member.only();
+            let component = component_of[point.element.index()];
+            let mut nodes = member.site.nodes;
+            for node in nodes.as_mut() {
+                *node = place_of(component, *node);
             }
+            let thermal = point.slots().thermal.unwrap_or(0);
+            self.spots.push(Spot {
+                component,
+                temperature: compact(first_temperature + thermal),
+                nodes,
+            });
         }
     }
 

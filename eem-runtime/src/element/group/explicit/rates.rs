@@ -7,9 +7,9 @@
 use crate::algebra::vector;
 use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
-use crate::element::group::arms::{add_scaled, along, scale};
+use crate::element::group::arms::{add_scaled, scale};
 use crate::element::group::explicit::closed::Found;
-use crate::element::group::explicit::group::ExplicitElements;
+use crate::element::group::explicit::group::{ExplicitElements, Spot};
 use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::placed::PlacedPoint;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Measures};
@@ -19,13 +19,23 @@ use eem_material::number::scalar::is_positive;
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
     pub(super) fn rates_of_all(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
-        for (point, nodes) in self.placed() {
+        // Known from here on, so that an index is checked once for both.
+        assert!(
+            stage.inner.len() == stage.inner_rates.len(),
+            "each internal variable has a rate"
+        );
+        for (point, spot) in self.placed() {
+            // The reference is for the error only.
+            let &Spot {
+                nodes, temperature, ..
+            } = spot;
             let r = arms_of::<K, D>(&nodes, &stage.places, Place::q);
             let measures = point.kinematics.measure(&r);
-            let found = point.found_at(&r, &measures, stage);
-            let is_sound = point.write_rates(nodes, &found, stage);
+            let found =
+                point.found_at(&r, &measures, spot.temperature_in(stage, M::THERMAL), stage);
+            let is_sound = point.write_rates(nodes, temperature, &found, stage);
             if !(is_sound && point.kinematics.is_admissible(&r, &measures)) {
-                return Err(point.refuse(&r, stage));
+                return Err(point.refuse(spot, stage));
             }
         }
         Ok(())
@@ -48,10 +58,40 @@ pub(super) fn arms_of<K: Kinematics<D>, const D: usize>(
     arms
 }
 
+/// `Σ_i g_i · w_i` over the arms. The sums begin with −0, to which a number is added without an instruction: whether nothing moves at
+/// the speed 0 or −0 changes no rate, as no heat is −0.
+#[inline]
+fn speed_along<K: Kinematics<D>, const D: usize>(
+    gradient: &Arms<K, D>,
+    motion: &Arms<K, D>,
+) -> f64 {
+    let mut speed = -0.0;
+    for (g, w) in gradient.as_ref().iter().zip(motion.as_ref()) {
+        let mut own = -0.0;
+        for axis in 0..D {
+            own += g[axis] * w[axis];
+        }
+        speed += own;
+    }
+    speed
+}
+
 /// Whether a number is finite. By its magnitude, which takes fewer instructions than by its bits.
 #[inline]
 fn is_number(value: f64) -> bool {
     value.abs() <= f64::MAX
+}
+
+impl<N> Spot<N> {
+    /// The temperature of the element at a stage; zero without one.
+    #[inline]
+    pub(super) fn temperature_in<const D: usize>(&self, stage: &Stage<D>, is_thermal: bool) -> f64 {
+        if is_thermal {
+            stage.inner[self.temperature as usize]
+        } else {
+            0.0
+        }
+    }
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
@@ -61,9 +101,9 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         &self,
         r: &Arms<K, D>,
         measures: &Measures<K, D>,
+        theta: f64,
         stage: &Stage<D>,
     ) -> Found<M, K, D> {
-        let theta = self.temperature_in(stage);
         // Called first: a call of `exp` would spill the registers used below.
         let viscosities = match M::DASHPOTS {
             0 => M::Viscosities::filled(0.0),
@@ -90,21 +130,12 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             x[a] = measure;
         }
         for k in 0..self.model.dashpots() {
-            x[M::MEASURES + k] = stage.inner[self.slots().viscous + k].now;
+            x[M::MEASURES + k] = stage.inner[self.slots().viscous + k];
         }
         if M::THERMAL {
             x[Self::TEMPERATURE] = theta;
         }
         x
-    }
-
-    /// Its temperature at a stage; zero without one.
-    #[inline]
-    pub(super) fn temperature_in(&self, stage: &Stage<D>) -> f64 {
-        match self.slots().thermal {
-            Some(slot) => stage.theta(slot),
-            None => 0.0,
-        }
     }
 
     /// Adds its forces on the nodes, and writes its rates; returns whether all are finite.
@@ -116,18 +147,20 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     pub(super) fn write_rates(
         &self,
         nodes: K::PerNode<u32>,
+        temperature: u32,
         found: &Found<M, K, D>,
         stage: &mut Stage<D>,
     ) -> bool {
+        let at = temperature as usize;
         let motion = arms_of::<K, D>(&nodes, &stage.places, Place::velocity);
         let Rates { forces, slopes } = &found.rates;
         let mut pull = found.gradient[0];
         scale::<K, D>(&mut pull, forces[0]);
-        let speed = along::<K, D>(&found.gradient[0], &motion);
+        let speed = speed_along::<K, D>(&found.gradient[0], &motion);
         let (mut power, mut drift) = (forces[0] * speed, slopes[0] * speed);
         for a in 1..M::MEASURES {
             add_scaled::<K, D>(&mut pull, forces[a], &found.gradient[a]);
-            let speed = along::<K, D>(&found.gradient[a], &motion);
+            let speed = speed_along::<K, D>(&found.gradient[a], &motion);
             power += forces[a] * speed;
             drift += slopes[a] * speed;
         }
@@ -136,9 +169,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             stage.places[nodes[0] as usize].pull(arm);
         }
         let viscous = self.slots().viscous;
-        let flow = match self.slots().thermal {
-            Some(slot) => stage.inner[stage.temperatures + slot].rate,
-            None => 0.0,
+        let flow = if M::THERMAL {
+            stage.inner_rates[at]
+        } else {
+            0.0
         };
         let (mut heat, mut is_sound) = (flow, true);
         let per_theta = if M::THERMAL && M::DASHPOTS > 0 {
@@ -149,7 +183,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         for k in 0..self.model.dashpots() {
             let g = forces[M::MEASURES + k];
             let creep = g / found.viscosities[k];
-            stage.inner[viscous + k].rate = creep;
+            stage.inner_rates[viscous + k] = creep;
             let power = g * creep;
             stage.productions[viscous + k].add(stage.weight, power * per_theta);
             if stage.has_heats {
@@ -161,14 +195,14 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             // With temperature, θ̇ contains the heat of the dashpot and is checked itself.
             is_sound &= M::THERMAL || is_number(creep);
         }
-        let Some(slot) = self.slots().thermal else {
+        if !M::THERMAL {
             return is_sound && is_number(power);
-        };
+        }
         let capacity = forces[Self::TEMPERATURE];
         let heating = (heat - found.theta * drift) / capacity;
-        stage.inner[stage.temperatures + slot].rate = heating;
+        stage.inner_rates[at] = heating;
         if stage.has_thermostats {
-            stage.receive(slot, heat);
+            stage.receive(at, heat);
         }
         is_sound &= is_number(heating);
         let is_stable = capacity > 0.0 && found.theta > 0.0;
@@ -177,13 +211,14 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
 
     /// The error of an element that has no valid rates.
     #[cold]
-    pub(super) fn refuse(&self, r: &Arms<K, D>, stage: &Stage<D>) -> StateError {
+    pub(super) fn refuse(&self, spot: &Spot<K::PerNode<u32>>, stage: &Stage<D>) -> StateError {
         let element = self.element;
+        let r = &arms_of::<K, D>(&spot.nodes, &stage.places, Place::q);
         let measures = self.kinematics.measure(r);
         if !self.kinematics.is_admissible(r, &measures) {
             return self.kinematics.refusal(element, r);
         }
-        let found = self.found_at(r, &measures, stage);
+        let found = self.found_at(r, &measures, spot.temperature_in(stage, M::THERMAL), stage);
         let theta = found.theta;
         if M::THERMAL && !is_positive(theta) {
             let value = theta;

@@ -8,6 +8,7 @@ pub(crate) const KEPT: usize = 10;
 
 /// Variables at the start of a step, and their rates at its stages.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(16))]
 pub(crate) struct Past<const N: usize, const P: usize> {
     pub(crate) start: [[f64; N]; P],
     pub(crate) rates: [[[f64; N]; P]; KEPT],
@@ -46,6 +47,31 @@ impl<const N: usize, const P: usize> Past<N, P> {
         sums
     }
 
+    /// Stores the newest rates in the last row; `y = y⁰ + h Σ a k`. In one loop, so that they are not loaded again.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as above")]
+    pub(crate) fn advance<const T: usize>(
+        &mut self,
+        newest: &[[f64; N]; P],
+        h: f64,
+        rows: [usize; T],
+        a: &[f64; T],
+    ) -> [[f64; N]; P] {
+        let mut y = [[0.0; N]; P];
+        for part in 0..P {
+            for index in 0..N {
+                let newest = newest[part][index];
+                self.rates[rows[T - 1]][part][index] = newest;
+                let mut sum = a[0] * self.rates[rows[0]][part][index];
+                for term in 1..T {
+                    sum += a[term] * self.rates[rows[term]][part][index];
+                }
+                y[part][index] = self.start[part][index] + h * sum;
+            }
+        }
+        y
+    }
+
     /// `y = y⁰ + h Σ a k`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as above")]
@@ -67,19 +93,22 @@ impl<const N: usize, const P: usize> Past<N, P> {
 }
 
 /// A mass, or an anchor in one of the components (connected bodies) that it holds.
+///
+/// In the order of the fields, vectors of the plane lie where they are loaded at once.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(16))]
+#[repr(C, align(16))]
 pub(crate) struct Place<const D: usize> {
     /// q, m, and p, kg m/s.
     pub(crate) now: [[f64; D]; 2],
     /// Their rates: v, m/s, and F, N; for an anchor the reaction, N, which is used only if it is moved.
     pub(crate) rates: [[f64; D]; 2],
-    /// m and 1/m; zero for anchors.
-    pub(crate) mass: f64,
-    pub(crate) per_mass: f64,
+    /// 1/m for each axis; zero for anchors.
+    per_mass: [f64; D],
     /// Its weight and the constant loads on it, N.
     pub(crate) force: [f64; D],
     pub(crate) past: Past<D, 2>,
+    /// m; zero for anchors.
+    pub(crate) mass: f64,
 }
 
 impl<const D: usize> Place<D> {
@@ -89,17 +118,20 @@ impl<const D: usize> Place<D> {
         Self {
             now: [[0.0; D]; 2],
             rates: [[0.0; D]; 2],
-            mass,
-            per_mass: if is_anchor { 0.0 } else { mass.recip() },
+            per_mass: [if is_anchor { 0.0 } else { mass.recip() }; D],
             force: [0.0; D],
             past: Past::none(),
+            mass,
         }
     }
 
     /// The rates that follow from the momentum; forces are added to them.
     #[inline]
     pub(crate) fn begin_rates(&mut self) {
-        self.rates = [vector(|axis| self.now[1][axis] * self.per_mass), [0.0; D]];
+        self.rates = [
+            vector(|axis| self.now[1][axis] * self.per_mass[axis]),
+            [0.0; D],
+        ];
     }
 
     /// Adds a force, N.
@@ -120,6 +152,12 @@ impl<const D: usize> Place<D> {
             *force -= by;
         }
         self.rates[1] = force;
+    }
+
+    /// 1/m.
+    #[inline]
+    pub(crate) const fn per_mass(&self) -> f64 {
+        self.per_mass[0]
     }
 
     #[inline]
@@ -217,22 +255,14 @@ impl Thermostat {
     }
 }
 
-/// An internal variable: a viscous stretch, m, or a temperature, K.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(16))]
-pub(crate) struct Inner {
-    pub(crate) now: f64,
-    /// `γ̇` or `θ̇`; before the elements have been evaluated the heat that flows into a thermal slot, W. Not used for a
-    /// reservoir.
-    pub(crate) rate: f64,
+/// The number of pairs of internal variables without reservoirs.
+fn pairs(layout: &Layout) -> usize {
+    (layout.viscous + layout.thermal).div_ceil(2)
 }
 
-impl Inner {
-    /// With a rate of zero.
-    #[inline]
-    pub(crate) fn new(now: f64) -> Self {
-        Self { now, rate: 0.0 }
-    }
+/// The index of the first reservoir among thermal slots and reservoirs.
+pub(crate) fn first_reservoir(layout: &Layout) -> usize {
+    2 * pairs(layout) - layout.viscous
 }
 
 /// All variables at a stage.
@@ -240,10 +270,14 @@ impl Inner {
 pub(crate) struct Stage<const D: usize> {
     /// Masses, then anchors.
     pub(crate) places: Vec<Place<D>>,
-    /// Viscous stretches, then the temperatures of thermal slots and of reservoirs.
-    pub(crate) inner: Vec<Inner>,
-    /// Starts and earlier rates of the internal variables, two per entry.
-    pub(crate) inner_past: Vec<Past<2, 1>>,
+    /// The internal variables: viscous stretches, m, then the temperatures of thermal slots and, from the next pair on, of
+    /// reservoirs, K.
+    pub(crate) inner: Vec<f64>,
+    /// Their rates `γ̇` and `θ̇`; before the elements have been evaluated the heat that flows into a thermal slot, W. Not used
+    /// for a reservoir.
+    pub(crate) inner_rates: Vec<f64>,
+    /// Their starts and earlier rates, two variables per entry.
+    pub(crate) inner_past: Vec<Past<1, 2>>,
     /// The index of the first temperature among the internal variables.
     pub(crate) temperatures: usize,
     /// The entropy production of each dashpot, `g γ̇/θ`, W/K, or without temperature its heat `g γ̇`, W.
@@ -266,16 +300,16 @@ impl<const D: usize> Stage<D> {
         reservoirs: usize,
         thermostats: Vec<Thermostat>,
     ) -> Self {
-        let size = layout.viscous + layout.thermal;
-        let pairs = size.div_ceil(2);
-        let all = (size + reservoirs).max(2 * pairs);
+        let pairs = pairs(layout);
+        let all = 2 * pairs + reservoirs;
         let mut places = Vec::with_capacity(masses.len());
         for &mass in masses {
             places.push(Place::new(mass));
         }
         Self {
             places,
-            inner: vec![Inner::new(1.0); all],
+            inner: vec![1.0; all],
+            inner_rates: vec![0.0; all],
             inner_past: vec![Past::none(); pairs],
             temperatures: layout.viscous,
             productions: vec![Integral::none(); layout.viscous],
@@ -293,30 +327,31 @@ impl<const D: usize> Stage<D> {
         self.heats[dashpot] += self.weight * power;
     }
 
-    /// Takes the heat of dashpots and paths that a thermal slot receives, W. If a thermostat prescribes the temperature,
-    /// sets its rate to zero.
+    /// Takes the heat of dashpots and paths that the element with a temperature receives, given its index among the internal
+    /// variables, W. If a thermostat prescribes the temperature, sets its rate to zero.
     #[cold]
-    pub(crate) fn receive(&mut self, slot: usize, heat: f64) {
-        self.thermostats[slot].received = heat;
-        if self.thermostats[slot].holds {
-            self.inner[self.temperatures + slot].rate = 0.0;
+    pub(crate) fn receive(&mut self, temperature: usize, heat: f64) {
+        let thermostat = &mut self.thermostats[temperature - self.temperatures];
+        thermostat.received = heat;
+        if thermostat.holds {
+            self.inner_rates[temperature] = 0.0;
         }
     }
 
     /// An internal variable at the start of the step.
     pub(crate) fn inner_start(&self, index: usize) -> f64 {
-        self.inner_past[index / 2].start[0][index % 2]
+        self.inner_past[index / 2].start[index % 2][0]
     }
 
     /// The temperature of a thermal slot or, with an index after those of the slots, of a reservoir, K.
     #[inline]
     pub(crate) fn theta(&self, slot: usize) -> f64 {
-        self.inner[self.temperatures + slot].now
+        self.inner[self.temperatures + slot]
     }
 
     #[inline]
     pub(crate) fn theta_mut(&mut self, slot: usize) -> &mut f64 {
-        &mut self.inner[self.temperatures + slot].now
+        &mut self.inner[self.temperatures + slot]
     }
 
     /// Pairs of all rates, at the start of the step and now; of places only the first `places`.
@@ -329,10 +364,12 @@ impl<const D: usize> Stage<D> {
                 }
             }
         }
-        for (past, own) in self.inner_past.iter().zip(self.inner.as_chunks::<2>().0) {
-            let [starts] = past.rates[0];
-            all.extend([[starts[0], own[0].rate], [starts[1], own[1].rate]]);
-        }
+        let starts = self.inner_past.iter().flat_map(|past| past.rates[0]);
+        all.extend(
+            starts
+                .zip(&self.inner_rates)
+                .map(|([start], &now)| [start, now]),
+        );
         for of in &self.productions {
             all.push([of.start, of.rate]);
         }
@@ -351,12 +388,12 @@ impl<const D: usize> Stage<D> {
                 }
             }
         }
-        let inner = self.inner.as_chunks_mut::<2>().0;
-        for (past, own) in self.inner_past.iter_mut().zip(inner) {
-            let [starts] = &mut past.rates[0];
-            for at in 0..2 {
-                visit([&mut starts[at], &mut own[at].rate]);
-            }
+        let starts = self
+            .inner_past
+            .iter_mut()
+            .flat_map(|past| &mut past.rates[0]);
+        for ([start], now) in starts.zip(&mut self.inner_rates) {
+            visit([start, now]);
         }
         for of in &mut self.productions {
             visit([&mut of.start, &mut of.rate]);

@@ -12,10 +12,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::integrate_thermostats`](super::ExplicitGroup::hold).
     #[cold]
     pub(super) fn integrate_thermostats_of_all(&self, stage: &mut Stage<D>, is_start: bool) {
-        for (point, nodes) in self.placed() {
+        for (point, spot) in self.placed() {
             let held = point.slots().thermal.filter(|&slot| stage.is_held(slot));
             if let Some(slot) = held {
-                point.integrate_thermostat(slot, &nodes, stage, is_start);
+                point.integrate_thermostat(slot, &spot.nodes, stage, is_start);
             }
         }
     }
@@ -55,7 +55,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         }
         for k in 0..self.dashpots() {
             let at = M::MEASURES + k;
-            rate -= (own[at] - other[at]) * stage.inner[self.slots().viscous + k].rate;
+            rate -= (own[at] - other[at]) * stage.inner_rates[self.slots().viscous + k];
         }
         let (weight, thermostat) = (stage.weight, &mut stage.thermostats[slot]);
         thermostat.sum += weight * rate;

@@ -12,14 +12,24 @@ pub(crate) struct ClosingView<'a, const D: usize> {
     pub(crate) open: &'a [bool],
     /// Its temperatures are guesses; `close` replaces them by those found from the entropies, except at thermostats.
     pub(crate) stage: &'a mut Stage<D>,
-    /// c and `|∂c/∂ ln θ|` per thermal slot, J/K.
-    pub(crate) capacities: &'a mut [[f64; 2]],
+    /// Per thermal slot.
+    pub(crate) slots: &'a mut [Caloric],
     /// The first stored entropy that differs by more than rounding from that of the temperature found for it.
     pub(crate) unkept: &'a mut Option<UnkeptEntropy>,
     /// Entropies are input, except at thermostats; energies are output.
     pub(crate) next: &'a mut State,
     /// The energy of each component.
     pub(crate) energies: &'a mut [ComponentEnergy],
+}
+
+/// What the closing of a step knows of a thermal slot, J/K.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Caloric {
+    /// c and `|∂c/∂ ln θ|`.
+    pub(crate) capacity: f64,
+    pub(crate) bend: f64,
+    /// The entropy that its element has produced itself in this step.
+    pub(crate) produced: f64,
 }
 
 /// A stored entropy that differs from `s(λ, γ, θ)`.

@@ -6,9 +6,10 @@ use super::super::memory::Motion;
 use super::super::origin::Origin;
 use super::{FROZEN, Status};
 use crate::algebra::dot;
-use crate::element::group::{Place, is_met};
+use crate::element::group::{Caloric, Place, is_met};
 use crate::element::state::State;
 use core::ops::Range;
+use eem_material::number::compensated::Total;
 use eem_material::number::scalar::Scalar;
 
 /// The fraction of the entropy production of a step by which a correction by heat may change it.
@@ -19,6 +20,16 @@ const HEAT_ITERATIONS: usize = 3;
 
 /// The tolerance of the defect, in u = ε/2, relative to the magnitude of the energy.
 const ENOUGH: f64 = 2.0;
+
+/// The sums over a component that change when its elements are warmed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Warmth {
+    /// Those of its internal energy, J, and of its entropy production, J/K.
+    energy: Total,
+    production: Total,
+    /// See [`Progress`](super::super::memory::Progress).
+    warmed: f64,
+}
 
 impl<const D: usize> Explicit<D> {
     /// Finds the sums over the masses of a component for their present positions and momenta.
@@ -56,7 +67,9 @@ impl<const D: usize> Explicit<D> {
         }
         for share in self.components.all[index].shares.clone() {
             let reservoir = self.components.shares[share].reservoir;
-            let theta = self.stage.theta(self.components.elements.len() + reservoir);
+            let theta = self
+                .stage
+                .theta(self.components.first_reservoir + reservoir);
             let sum = self.books.shares[share];
             energy.add(theta * sum.value);
             energy.add(theta * sum.carry);
@@ -71,7 +84,7 @@ impl<const D: usize> Explicit<D> {
         let [mut motion, mut potential] = [0.0; 2];
         for place in &self.stage.places[..self.components.masses] {
             let [q, p] = &place.past.start;
-            motion += 0.5 * dot(p, p) * place.per_mass;
+            motion += 0.5 * dot(p, p) * place.per_mass();
             for (force, q) in place.force.iter().zip(q) {
                 potential += (force * q).abs();
             }
@@ -177,7 +190,7 @@ impl<const D: usize> Explicit<D> {
         let mut sum = self.scratch.progress[index].lost;
         for at in self.slots_of(index) {
             let slot = self.components.slots[at];
-            sum += self.scratch.produced[slot] * self.stage.theta(slot);
+            sum += self.scratch.slots[slot].produced * self.stage.theta(slot);
         }
         sum
     }
@@ -197,14 +210,34 @@ impl<const D: usize> Explicit<D> {
         scratch.progress[index].factor *= 1.0 + part;
         scratch.progress[index].present = None;
         let mut is_small = true;
+        let mut sums = self.warmth(index);
         for at in self.slots_of(index) {
             let slot = self.components.slots[at];
-            let entropy = self.scratch.produced[slot] * part;
+            let entropy = self.scratch.slots[slot].produced * part;
             if entropy != 0.0 {
-                is_small &= self.warm(index, slot, entropy, next);
+                is_small &= self.warm((slot, entropy), &mut sums, next);
             }
         }
+        self.keep_warmth(index, sums);
         is_small
+    }
+
+    /// The sums of a component that [`warm`](Self::warm) changes.
+    #[inline]
+    pub(super) fn warmth(&self, index: usize) -> Warmth {
+        let progress = &self.scratch.progress[index];
+        Warmth {
+            energy: self.scratch.energies[index].value,
+            production: progress.production,
+            warmed: progress.warmed,
+        }
+    }
+
+    #[inline]
+    pub(super) fn keep_warmth(&mut self, index: usize, sums: Warmth) {
+        let progress = &mut self.scratch.progress[index];
+        (progress.production, progress.warmed) = (sums.production, sums.warmed);
+        self.scratch.energies[index].value = sums.energy;
     }
 
     pub(in super::super) fn slots_of(&self, index: usize) -> Range<usize> {
@@ -214,28 +247,28 @@ impl<const D: usize> Explicit<D> {
     /// Gives the entropy x to an element as if it had produced it: θ becomes `θ (1 + r + r²/2)` with `r = x/c`, and e becomes
     /// `e + θ x (1 + r/2)`. The thermostat of a held element takes it, with the heat θ x.
     /// Returns whether that is exact to rounding, and θ matches the stored entropy.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "the sums stay in registers")]
     pub(super) fn warm(
         &mut self,
-        index: usize,
-        slot: usize,
-        entropy: f64,
+        (slot, entropy): (usize, f64),
+        sums: &mut Warmth,
         next: &mut State,
     ) -> bool {
-        self.scratch.produced[slot] += entropy;
-        self.scratch.progress[index].production.add(entropy);
+        let caloric = &mut self.scratch.slots[slot];
+        caloric.produced += entropy;
+        sums.production.add(entropy);
+        let Caloric { capacity, bend, .. } = *caloric;
         if self.stage.is_held(slot) {
             self.warm_held(slot, entropy);
             return true;
         }
-        let (theta, scratch) = (self.stage.theta_mut(slot), &mut self.scratch);
-        let [capacity, bend] = scratch.capacities[slot];
+        let theta = self.stage.theta_mut(slot);
         let ratio = entropy / capacity;
-        let warmed = &mut scratch.progress[index].warmed;
-        *warmed = Scalar::maximum(*warmed, ratio.abs());
+        sums.warmed = Scalar::maximum(sums.warmed, ratio.abs());
         let energy = *theta * entropy * (1.0 + 0.5 * ratio);
         next.entropies.add(slot, entropy);
-        scratch.energies[index].value.add(energy);
+        sums.energy.add(energy);
         let element = self.components.elements[slot];
         next.energies[element].value += energy;
         *theta += *theta * ratio * (1.0 + 0.5 * ratio);

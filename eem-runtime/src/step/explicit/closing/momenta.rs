@@ -129,7 +129,13 @@ impl<const D: usize> Explicit<D> {
             return;
         }
         // The energy is summed with the corrected momenta.
-        self.sum_motion(index, Motion::add_momenta);
+        self.sum_motion(index, |motion, place, arm| {
+            motion.add_momenta(place, arm);
+            // Only rotations in space ask how well they are known before a correction.
+            if D > 2 {
+                motion.add_terms(place, arm);
+            }
+        });
         // In four dimensions and more, several planes may be without inertia, and principal axes are known to ε over the gap of
         // their moments, so that the correction of one plane spoils another.
         let most = if D < 4 { 1 } else { 3 };

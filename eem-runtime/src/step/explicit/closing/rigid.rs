@@ -31,13 +31,13 @@ impl<const D: usize> Explicit<D> {
             });
         }
         for dashpot in self.components.dashpots_of(index) {
-            self.stage.inner[dashpot].now = self.stage.inner_start(dashpot);
+            self.stage.inner[dashpot] = self.stage.inner_start(dashpot);
         }
         let old = view.state;
         for at in self.slots_of(index) {
             let slot = self.components.slots[at];
             let at = self.stage.temperatures + slot;
-            self.stage.inner[at].now = self.stage.inner_start(at);
+            self.stage.inner[at] = self.stage.inner_start(at);
             next.entropies.advance(slot, &old.entropies, 0.0);
         }
         for share in self.components.all[index].shares.clone() {
@@ -111,13 +111,13 @@ impl<const D: usize> Explicit<D> {
             see(hypot(&difference(&momentum, place.p())), scales.momentum);
         }
         for dashpot in self.components.dashpots_of(index) {
-            let change = self.stage.inner[dashpot].now - self.stage.inner_start(dashpot);
+            let change = self.stage.inner[dashpot] - self.stage.inner_start(dashpot);
             see(change, scales.position);
         }
         for at in self.slots_of(index) {
             let at = self.stage.temperatures + self.components.slots[at];
             let start = self.stage.inner_start(at);
-            see(self.stage.inner[at].now - start, start);
+            see(self.stage.inner[at] - start, start);
         }
         largest
     }

@@ -162,11 +162,11 @@ impl<const D: usize> Explicit<D> {
             sum += stiffness * position * (size(&way) + f64::EPSILON * position);
             if place.mass > 0.0 {
                 let start = &place.past.start[1];
-                sum += 0.5 * dot(start, start) * place.per_mass;
+                sum += 0.5 * dot(start, start) * place.per_mass();
             }
         }
         for dashpot in self.components.dashpots_of(index) {
-            let now = self.stage.inner[dashpot].now;
+            let now = self.stage.inner[dashpot];
             let way = (now - self.stage.inner_start(dashpot)).abs();
             sum += self.scratch.pulls[dashpot] * (way + f64::EPSILON * now.abs());
         }
@@ -185,7 +185,7 @@ impl<const D: usize> Explicit<D> {
             let (place, node) = (&self.stage.places[at], self.components.nodes[at]);
             let impulse = self.rounding.at(node).impulse;
             let momenta = length(&place.past.start[1]) + length(place.p()) + impulse;
-            sum += impulse * momenta * place.per_mass;
+            sum += impulse * momenta * place.per_mass();
             // The force of the springs is that on the mass less the constant one.
             let force = length(&self.scratch.forces[at]) + length(&place.force);
             sum += force * self.rounding.at(node).pull;

@@ -106,7 +106,7 @@ impl<const D: usize> Explicit<D> {
         for place in component.masses.clone() {
             let own = self.inner_momentum(place, &rigid);
             let force = self.inner_force(place, &means);
-            let per_mass = self.stage.places[place].per_mass;
+            let per_mass = self.stage.places[place].per_mass();
             means.motion += 0.5 * dot(&own, &own) * per_mass;
             shape += dot(&force, &force) * per_mass;
         }
@@ -174,19 +174,19 @@ impl<const D: usize> Explicit<D> {
             let own = self.inner_momentum(at, &means.rigid);
             let force = self.inner_force(at, means);
             let place = &mut self.stage.places[at];
-            let change = place.per_mass * share * h * h;
+            let change = place.per_mass() * share * h * h;
             add(&mut place.now[1], share, &own);
             add(&mut place.now[0], -change, &force);
         }
         for dashpot in self.components.dashpots_of(index) {
-            self.stage.inner[dashpot].now -= share * h * self.scratch.creep[dashpot][0];
+            self.stage.inner[dashpot] -= share * h * self.scratch.creep[dashpot][0];
         }
         self.exchange_heat(index, share * h, next);
     }
 
     /// Moves entropy from the warmer to the cooler end of each path, without production.
     fn exchange_heat(&mut self, index: usize, duration: f64, next: &mut State) {
-        let slots = self.scratch.produced.len();
+        let first = self.components.first_reservoir;
         for path in &self.components.paths[self.components.all[index].paths.clone()] {
             let ends = path.ends;
             if self.meets_thermostat(ends) {
@@ -201,7 +201,7 @@ impl<const D: usize> Explicit<D> {
                 None => next.entropies.add(ends[1], -entropy),
                 Some(share) => {
                     self.books.shares[share].add(-entropy);
-                    next.reservoir_entropies.add(ends[1] - slots, -entropy);
+                    next.reservoir_entropies.add(ends[1] - first, -entropy);
                 }
             }
         }
@@ -235,18 +235,20 @@ impl<const D: usize> Explicit<D> {
         for at in self.slots_of(index) {
             let slot = self.components.slots[at];
             if self.takes(slot) {
-                all += self.scratch.capacities[slot][0] * self.stage.theta(slot);
+                all += self.scratch.slots[slot].capacity * self.stage.theta(slot);
             }
         }
         if all > 0.0 {
+            let mut sums = self.warmth(index);
             for at in self.slots_of(index) {
                 let slot = self.components.slots[at];
                 if self.takes(slot) {
-                    let entropy = self.scratch.capacities[slot][0] * (defect / all);
-                    self.warm(index, slot, entropy, next);
+                    let entropy = self.scratch.slots[slot].capacity * (defect / all);
+                    self.warm((slot, entropy), &mut sums, next);
                     next.meters.produce(slot, entropy);
                 }
             }
+            self.keep_warmth(index, sums);
             return true;
         }
         // What leaves the scene, or is taken by thermostats, is known to its own size.
