@@ -4,6 +4,8 @@
 //! `eem` re-exports what users need. The rest is for its runtime and may change with it.
 
 mod array;
+#[doc(hidden)]
+pub mod arrays;
 pub mod component_energy;
 pub mod describe;
 pub mod domain;

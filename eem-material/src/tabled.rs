@@ -3,7 +3,8 @@
 use core::any::Any;
 use core::ops::Deref;
 
-use crate::formulas::{Arrays, ArraysOf, Formulas};
+use crate::arrays::{Arrays, ArraysOf};
+use crate::formulas::Formulas;
 use crate::free_energy::{Array, Material};
 
 /// A material behind its table.

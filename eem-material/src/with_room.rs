@@ -10,7 +10,7 @@
 use core::any::Any;
 use core::marker::PhantomData;
 
-use crate::formulas::Arrays;
+use crate::arrays::Arrays;
 use crate::free_energy::{Array, Caloric, FreeEnergy, Material, Rates};
 
 /// A material in the arrays A.

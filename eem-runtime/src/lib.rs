@@ -33,7 +33,7 @@
 //! | reject what does not fit in memory | `algebra/memory.rs`, `step/systems.rs` |
 //! | add a strain measure | `strain.rs`, `between.rs`, `stiffness.rs` in `element/kinematics`; `tensor.rs` in `eem-mesh`; its role in `eem-language` |
 //! | change viscous strain tensors | `joint.rs`, `component_energy.rs` in `eem-material` |
-//! | compile springs of other shapes with this crate | `element/group/springs.rs`; `tabled.rs` in `eem-material` |
+//! | compile springs with other arrays with this crate | `element/group/springs.rs`; `formulas.rs`, `tabled.rs` and `with_room.rs` in `eem-material` |
 //! | change the dashpot in parallel with a spring | `element/group/kelvin_voigt.rs` |
 //! | add a shape of cell | `shape.rs` in `eem-mesh` |
 //! | change solids and their checks | `bulk.rs`, `meshed_solid.rs`, `body_heat.rs`, `solid.rs` in `scene`; meshes: `eem-mesh` |

@@ -42,7 +42,7 @@
 //! | evaluate several springs at a time | `run_rows` in `tape.rs`, `typed/together.rs`; the caller is `element/group/together.rs` in `eem-runtime` |
 //! | change derivatives with respect to parameters | `functions/by_parameters.rs`, their names in `names.rs`; programs are made at the first derivative |
 //! | add a shape | the types of springs, and `solid!`, in `shapes.rs`; what a type says of its law: `shape.rs` |
-//! | change what is at the places of dashpots that a law lacks | `functions/room.rs` |
+//! | change what is at the places of dashpots and of a temperature that a law lacks | `functions/room.rs` |
 
 mod error;
 mod functions;

@@ -1,5 +1,7 @@
 //! The shapes of springs, and the choice among them when a program runs.
 
+use core::any::Any;
+
 use eem_runtime::{Element, Node, Scene};
 
 use crate::error::LawError;
@@ -84,15 +86,36 @@ impl Law {
         nodes: [Node; 2],
     ) -> Result<Element, LawError> {
         self.check_spring()?;
-        let shape = self.shape();
-        Ok(match (shape.dashpots, shape.drag, shape.thermal) {
-            (0, 0, false) => scene.spring::<Spring0>(self.model()?, nodes),
-            (0, 0, true) => scene.spring::<ThermalSpring0>(self.model()?, nodes),
-            (1, 0, true) => scene.spring::<ThermalSpring1>(self.model()?, nodes),
-            (0..=2, _, _) => scene.spring::<DampedSpring>(self.model()?, nodes),
-            _ => scene.spring::<Spring8>(self.model()?, nodes),
-        })
+        if const { 1 <= D && D <= 3 } {
+            let all: [&dyn Any; 3] = [&LINE, &PLANE, &SPACE];
+            let own: Option<&AddSpring<D>> = all[D - 1].downcast_ref();
+            return own.expect("one for each dimension")(self, scene, nodes);
+        }
+        add_spring(self, scene, nodes)
     }
+}
+
+/// Puts a spring of a law between two nodes of a scene.
+type AddSpring<const D: usize> = fn(&Law, &mut Scene<D>, [Node; 2]) -> Result<Element, LawError>;
+
+// Compiled with this crate: the explicit scheme, which is compiled for each type, takes most of it.
+static LINE: AddSpring<1> = add_spring;
+static PLANE: AddSpring<2> = add_spring;
+static SPACE: AddSpring<3> = add_spring;
+
+fn add_spring<const D: usize>(
+    law: &Law,
+    scene: &mut Scene<D>,
+    nodes: [Node; 2],
+) -> Result<Element, LawError> {
+    let shape = law.shape();
+    Ok(match (shape.dashpots, shape.drag, shape.thermal) {
+        (0, 0, false) => scene.spring::<Spring0>(law.model()?, nodes),
+        (0, 0, true) => scene.spring::<ThermalSpring0>(law.model()?, nodes),
+        (1, 0, true) => scene.spring::<ThermalSpring1>(law.model()?, nodes),
+        (0..=2, _, _) => scene.spring::<DampedSpring>(law.model()?, nodes),
+        _ => scene.spring::<Spring8>(law.model()?, nodes),
+    })
 }
 
 /// The type of the material of a solid, made from a law: a [`Typed`](crate::Typed).

@@ -12,7 +12,7 @@ use crate::element::group::{LooseElements, identity};
 use crate::element::handle::{Element, HeatPartner, HeatPath, Kind, Node, Reservoir};
 use crate::element::kinematics::Stretch;
 use crate::scene::error::SceneError;
-use eem_material::formulas::{Arrays, ArraysOf};
+use eem_material::arrays::{Arrays, ArraysOf};
 use eem_material::free_energy::Material;
 use eem_material::tabled::Tabled;
 use eem_material::with_room::WithRoom;
@@ -70,13 +70,13 @@ impl<const D: usize> Scene<D> {
         } else if const { Tabled::<Damped>::is_for::<M>() } {
             self.push_spring::<M, Damped>(element, model, groups.damped)
         } else if const { Tabled::<ManyDashpots>::is_for::<M>() } {
-            self.push_spring::<M, ManyDashpots>(element, model, groups.many_dashpots)
+            self.push_spring::<M, ManyDashpots>(element, model, group_of::<ManyDashpots, D>)
         } else if const { WithRoom::<M, Damped>::FITS } {
             let model = WithRoom::<M, Damped>::new(model);
             self.push_spring::<M, Damped>(element, model, groups.damped)
         } else if const { WithRoom::<M, ManyDashpots>::FITS } {
             let model = WithRoom::<M, ManyDashpots>::new(model);
-            self.push_spring::<M, ManyDashpots>(element, model, groups.many_dashpots)
+            self.push_spring::<M, ManyDashpots>(element, model, group_of::<ManyDashpots, D>)
         } else {
             self.push_spring::<M, Own<M>>(element, model, group_of::<Own<M>, D>)
         };

@@ -11,7 +11,7 @@ use crate::scene::check::check_position;
 use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
-use eem_material::formulas::{Arrays, ArraysOf};
+use eem_material::arrays::{Arrays, ArraysOf};
 use eem_material::free_energy::FreeEnergy;
 use eem_material::joint::components;
 use eem_material::number::scalar::is_positive;

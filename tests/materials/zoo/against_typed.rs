@@ -4,7 +4,7 @@ use eem::typed::{
     DampedSpring, Law, Source, Spring0, Spring8, ThermalSpring0, ThermalSpring1, compile, solid,
 };
 use eem::{Array, FreeEnergy, Material};
-use eem_material::formulas::{Arrays, SpringArrays};
+use eem_material::arrays::{Arrays, SpringArrays};
 use eem_material::free_energy::{ExactForm, MOST_TOGETHER, Steps};
 use eem_material::tabled::Tabled;
 use eem_material::with_room::WithRoom;

@@ -1,7 +1,7 @@
 //! A material behind its table as a free energy again, so that every function of the table is compared.
 
 use eem::{Array, Caloric, FreeEnergy, Rates};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::TogetherOf;
 use eem_material::tabled::Tabled;
 

@@ -4,7 +4,8 @@
 
 use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::conjugates::temperature::{LAST_CORRECTION, temperature_of};
-use eem_material::formulas::{Arrays, TogetherIn};
+use eem_material::arrays::Arrays;
+use eem_material::formulas::TogetherIn;
 use eem_material::free_energy::{Array, MOST_TOGETHER, Steps};
 use eem_material::tabled::Tabled;
 

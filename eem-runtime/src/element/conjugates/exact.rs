@@ -23,7 +23,7 @@
 
 use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::conjugates::start::Form;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::tabled::Tabled;
 

@@ -30,7 +30,7 @@ use crate::element::conjugates::family::{PointRule, not_of_this_family};
 use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::conjugates::start::{Form, Kept, Start};
 use crate::element::conjugates::temperature::temperature_at;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::tabled::Tabled;
 

@@ -3,7 +3,7 @@
 use crate::element::conjugates::corners::find_corners;
 use crate::element::conjugates::family::{ExactForm, Family, OneSet, not_of_this_family};
 use crate::element::conjugates::infeasible::Infeasible;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 pub(crate) use eem_material::formulas::Form;
 use eem_material::free_energy::Array;
 use eem_material::tabled::Tabled;

@@ -4,7 +4,7 @@
 
 use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::state::Energy;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Caloric;
 use eem_material::inversion::temperature_near;
 use eem_material::tabled::Tabled;

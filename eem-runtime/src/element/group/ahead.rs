@@ -7,7 +7,8 @@ use crate::element::conjugates::{Family, Form, OneSet, find_corners_together};
 use crate::element::group::view::Trial;
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
-use eem_material::formulas::{Arrays, TogetherIn};
+use eem_material::arrays::Arrays;
+use eem_material::formulas::TogetherIn;
 use eem_material::free_energy::{Array, Caloric, ExactForm, MOST_TOGETHER, Steps};
 
 /// The elements that are evaluated in one call, in blocks, and room for the values of a block.

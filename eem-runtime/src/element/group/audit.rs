@@ -6,7 +6,7 @@ use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::kinematics::MeasureSet;
 use crate::element::state::State;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::number::scalar::{Scalar, is_positive};
 
 /// The largest difference of a stored entropy and that of the model, in ε of its terms.

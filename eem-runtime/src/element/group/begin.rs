@@ -9,7 +9,7 @@ use crate::element::conjugates::Family;
 use crate::element::error::StateError;
 use crate::element::group::view::{Before, Old, StepView};
 use crate::element::kinematics::{Kinematics, MeasureSet, Numbers};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// Reduces the unit of length of each node to that of its elements, if that is shorter.

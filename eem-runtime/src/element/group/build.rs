@@ -10,7 +10,7 @@ use super::view::Placed;
 use crate::element::conjugates::Conjugates;
 use crate::element::kinematics::{MeasureSet, QuadraticStrain};
 use crate::element::layout::Shape;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::tabled::Tabled;
 
 impl<A: Arrays, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseElements<A, K, D> {

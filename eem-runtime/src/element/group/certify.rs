@@ -12,7 +12,7 @@ use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet};
 use crate::element::state::Energy;
 use crate::element::tally::{Care, Tally};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 

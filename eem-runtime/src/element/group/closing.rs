@@ -23,7 +23,7 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Weights};
 use crate::element::state::State;
 use crate::element::tally::{Care, Tally};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::{Array, Caloric};
 
 impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {

@@ -3,7 +3,7 @@
 use super::point::Point;
 use crate::element::conjugates::{Family, Form};
 use crate::element::kinematics::{MeasureSet, Numbers};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// A response with the internal variables eliminated: `value + Σ_a by_measure_a δπ_a − by_heat δr_s`.

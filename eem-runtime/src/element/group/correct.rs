@@ -7,7 +7,7 @@ use super::share::run;
 use super::site::{Contact, Site};
 use crate::element::conjugates::Family;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Numbers};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 

@@ -9,7 +9,7 @@ use crate::element::error::StateError;
 use crate::element::group::respond::check_temperature;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::MeasureSet;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {

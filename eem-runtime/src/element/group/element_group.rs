@@ -22,7 +22,7 @@ use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Kinematics, MeasureSet, Points, QuadraticStrain};
 use crate::element::state::State;
 use crate::element::tally::{Reevaluation, Tally};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Scalar;

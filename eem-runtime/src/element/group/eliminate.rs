@@ -2,7 +2,7 @@
 
 use crate::algebra::lu::Singular;
 use crate::element::kinematics::MeasureSet;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::is_positive;
 use eem_material::tabled::Tabled;

@@ -10,7 +10,7 @@ use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::Kinematics;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 
 impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
     /// Evaluates responses and tangents, and adds their contributions to the system of the next iteration.

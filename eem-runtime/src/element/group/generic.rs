@@ -9,7 +9,7 @@ use crate::element::conjugates::Placement;
 use crate::element::kinematics::{Arms, Kinematics, Measures};
 use crate::element::layout::Slots;
 use crate::element::state::State;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {

@@ -14,7 +14,7 @@ use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet, SolidState};
 use crate::element::layout::Slots;
 use crate::element::state::{Energy, State};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::digest::Digest;
 use eem_material::tabled::Tabled;

@@ -19,7 +19,7 @@ use crate::element::error::StateError;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, MeasureSet, Numbers};
 use crate::element::tally::Tally;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::is_positive;
 use eem_material::tabled::Tabled;

@@ -21,7 +21,7 @@ use crate::element::error::StateError;
 use crate::element::group::point::temperature_in;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::MeasureSet;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// The power dissipated by the dashpots, `Σ η γ̇²`, W, and its derivatives with respect to the variables.

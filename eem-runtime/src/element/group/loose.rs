@@ -7,7 +7,7 @@ use super::view::Placed;
 use crate::element::handle::Element;
 use crate::element::kinematics::{Kinematics, MeasureSet, Points};
 use crate::element::layout::Shape;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::tabled::Tabled;
 
 /// Model and kinematics of the points of an element.

@@ -11,7 +11,7 @@ use crate::element::group::view::{Placed, StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::tabled::Tabled;
 

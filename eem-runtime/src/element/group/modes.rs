@@ -7,7 +7,7 @@
 //! V is found by Jacobi's method, which keeps the small rates of dashpots beside large ones, and turns nothing if the dashpots are
 //! not coupled. It does not depend on the axes in which the viscous strain of a solid is given.
 
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// Jacobi's method converges quadratically; matrices of up to seven rows take six sweeps or fewer.

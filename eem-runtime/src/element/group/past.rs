@@ -12,7 +12,7 @@ use super::point_step::PastStep;
 use crate::element::conjugates::{Exact, Form, Start, exchanged};
 use crate::element::error::StateError;
 use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {

@@ -12,7 +12,7 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Ends, Gradient, Kinematics, Measures};
 use crate::element::state::State;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// A point, and what it takes to find its measures from the nodes and to bring its forces to them.

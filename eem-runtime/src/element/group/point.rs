@@ -10,7 +10,7 @@ use crate::element::handle::Element;
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use crate::element::state::State;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::is_positive;

@@ -28,7 +28,7 @@ use crate::element::conjugates::{Exact, Family};
 use crate::element::error::StateError;
 use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use weights::Surroundings;
 
@@ -145,7 +145,7 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
         for member in &self.members {
             for point in member.points.as_ref() {
                 let x = point.variables_in(&member.arms_in(state), state);
-                found.resize(point.model.facts().parameter_count, 0.0);
+                found.resize(point.model.facts().derivatives, 0.0);
                 point.model.energy_by_parameters(&x, &mut found);
                 see(point.element, &found);
             }

@@ -27,7 +27,7 @@ use crate::element::conjugates::{Exact, Family};
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, points, scale};
 use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {

@@ -5,7 +5,7 @@ use super::placed::PlacedPoint;
 use super::point::Point;
 use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet};
 use crate::element::state::State;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// The change of the energy of a point between two states.

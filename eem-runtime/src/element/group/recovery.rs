@@ -7,7 +7,7 @@ use crate::element::error::StateError;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::state::{Energy, State};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Caloric;
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {

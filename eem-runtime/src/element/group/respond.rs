@@ -5,7 +5,7 @@ use crate::element::conjugates::{Family, Form, check_stable};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Numbers};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::is_positive;
 

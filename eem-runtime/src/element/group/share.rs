@@ -10,7 +10,7 @@ use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::{Family, Form};
 use crate::element::group::member::Member;
 use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Measures, Points};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// The contribution of the points of an element to the system of an iteration.

@@ -8,7 +8,7 @@ use super::interface::{ExplicitGroup, Loose};
 use super::loose::{LooseElements, MakeExplicit};
 use super::view::Placed;
 use crate::element::kinematics::Stretch;
-use eem_material::formulas::{Arrays, SpringArrays};
+use eem_material::arrays::{Arrays, SpringArrays};
 use eem_material::free_energy::Material;
 
 /// Arrays of springs without temperature and dashpots.
@@ -23,7 +23,7 @@ pub(crate) type Viscous = SpringArrays<3, 1, 0, 4, 4, 24>;
 /// With room for a temperature, two dashpots in series and one in parallel.
 pub(crate) type Damped = SpringArrays<4, 2, 1, 6, 5, 32>;
 
-/// With room for a temperature, eight dashpots in series and one in parallel.
+/// With room for a temperature, eight dashpots in series and one in parallel. Compiled in the program that has such springs.
 pub(crate) type ManyDashpots = SpringArrays<10, 8, 1, 18, 11, 32>;
 
 /// Makes a group without elements.
@@ -35,7 +35,6 @@ pub(crate) struct Springs<const D: usize> {
     pub(crate) warm: NewGroup<D>,
     pub(crate) viscous: NewGroup<D>,
     pub(crate) damped: NewGroup<D>,
-    pub(crate) many_dashpots: NewGroup<D>,
 }
 
 #[cfg(not(test))]
@@ -59,7 +58,6 @@ impl<const D: usize> Springs<D> {
         warm: group_of::<Warm, D>,
         viscous: group_of::<Viscous, D>,
         damped: group_of::<Damped, D>,
-        many_dashpots: group_of::<ManyDashpots, D>,
     };
 
     /// Those of this crate if it has them. A branch that a constant rules out is not compiled.

@@ -5,7 +5,7 @@ use core::ops::Range;
 
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::number::scalar::Scalar;
 use eem_material::tabled::Tabled;
 

@@ -12,7 +12,7 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
 use crate::element::tally::Tally;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 
 impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
     /// Stores what the scheme keeps of the old state.

@@ -14,7 +14,7 @@ use crate::element::group::site::HeatPath;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, MeasureSet, Measures, Numbers};
 use crate::element::layout::Slots;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// The transposed equations of a point after the elimination of its own weights:

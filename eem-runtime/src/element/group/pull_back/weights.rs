@@ -10,7 +10,7 @@ use crate::element::group::site::HeatPath;
 use crate::element::group::terms::Terms;
 use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Numbers};
 use crate::element::layout::Slots;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// The inputs of the weights of a point besides its own values.
@@ -181,7 +181,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
         [sum, by]: &'a mut [Vec<f64>; 2],
     ) -> &'a [f64] {
         for workspace in [&mut *sum, &mut *by] {
-            workspace.resize(self.model.facts().parameter_count, 0.0);
+            workspace.resize(self.model.facts().derivatives, 0.0);
         }
         let (start, x) = (&self.start, &self.x);
         start.form_adjoint(&self.model, x, &self.corners, &of.rho, sum);

@@ -11,7 +11,7 @@ use crate::element::group::point_step::{Direction, PastStep};
 use crate::element::group::site::HeatPath;
 use crate::element::kinematics::{Blocks, Ends, Kinematics, MeasureSet, Numbers};
 use crate::element::layout::Slots;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// The derivatives of the equations of a point, the same for all directions.

@@ -8,7 +8,7 @@ use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
 use crate::element::tally::Tally;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 
 /// A point at the stages without its nodes: the same in any number of dimensions.
 pub(crate) trait StageEquations<A: Arrays, Q: MeasureSet>:

@@ -19,7 +19,7 @@ use crate::element::kinematics::{Kinematics, MeasureSet, Measures, Points, Quadr
 use crate::element::state::State;
 use crate::element::tableau::{MOST_STAGES, Tableau};
 use crate::element::tally::{Reevaluation, Tally};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 
 /// The points of all elements of the model `A`, with equations `E`.
 pub(crate) struct OfMaterial<A: Arrays, K: Kinematics<D>, E, const D: usize> {

@@ -19,7 +19,7 @@ use crate::element::kinematics::{MeasureSet, MeasuresOf, PerStrain, StrainMeasur
 use crate::element::state::State;
 use crate::element::tableau::{MOST_POINTS, MOST_STAGES};
 use crate::element::tally::{Care, Tally};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 

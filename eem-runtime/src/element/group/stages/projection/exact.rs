@@ -4,7 +4,7 @@ use super::path::PointPath;
 use super::vector::Vector;
 use crate::element::kinematics::StrainMeasures;
 use crate::element::tableau::MOST_STAGES;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 
 /// `Δê − Σ b a·R` is rounding up to this many roundings of its terms: a product and two sums of a term, in each of the two
 /// parts. The tangent then takes the correction `μ W R_i` as constant: its derivatives, μ W among them, would be noise divided by

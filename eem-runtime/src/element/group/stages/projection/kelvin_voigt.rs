@@ -11,7 +11,7 @@ use crate::element::error::StateError;
 use crate::element::group::point::Point;
 use crate::element::kinematics::{MeasuresOf, PerStrain, StrainMeasures};
 use crate::element::tableau::MOST_SETS;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 impl<A: Arrays, G: StrainMeasures> PointPath<A, G> {

@@ -20,7 +20,7 @@ use crate::element::kinematics::{MeasuresOf, PerStrain, StrainMeasures};
 use crate::element::state::State;
 use crate::element::tableau::MOST_STAGES;
 use crate::element::tally::Tally;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 

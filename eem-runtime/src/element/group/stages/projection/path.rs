@@ -11,7 +11,7 @@ use crate::element::group::view::StepView;
 use crate::element::handle::Element;
 use crate::element::kinematics::{MeasuresOf, PerStrain, StrainMeasures};
 use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES, Path};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::is_positive;
 

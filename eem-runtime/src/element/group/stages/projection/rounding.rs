@@ -5,7 +5,7 @@ use super::vector::Vector;
 use crate::element::group::point::Point;
 use crate::element::kinematics::StrainMeasures;
 use crate::element::tableau::MOST_STAGES;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 
 impl<A: Arrays, G: StrainMeasures> PointPath<A, G> {
     /// Adds to the conditioning errors, in units of ε, those of a step whose increments are far above the variables: of the

@@ -10,7 +10,7 @@ use core::ops::{Index, IndexMut, Range};
 
 use crate::element::group::arms::measures_in;
 use crate::element::kinematics::{PerStrain, StrainMatrix, StrainMeasures, StrainSlopes};
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 

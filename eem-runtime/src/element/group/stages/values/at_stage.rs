@@ -1,7 +1,7 @@
 //! One point at one stage: forces, rates of its internal variables, and their derivatives.
 
 use crate::element::conduction::HeatFlow;
-use eem_material::formulas::Arrays;
+use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// The model at a stage.
