@@ -112,23 +112,17 @@ impl<const D: usize> Scene<D> {
         &self.errors
     }
 
-    /// The numbering of its unknowns and state variables, and its paths of heat.
-    pub(crate) fn numbering(&self) -> (Layout, Conduction) {
-        let mut layout = self.layout();
+    /// The numbering of its unknowns and state variables, and its paths of heat, given the places and shapes of elements.
+    pub(crate) fn numbering(
+        &self,
+        masses: &Masses,
+        elements: (&[[u32; 2]], &[Shape]),
+    ) -> (Layout, Conduction) {
+        let mut layout = entry::layout(D, masses, elements);
         let reservoirs = self.reservoir_temperatures().into_owned();
         let conduction = Conduction::new(&self.conductors, reservoirs, &layout);
         layout.couple(|slot| conduction.meets_slots(slot));
         (layout, conduction)
-    }
-
-    /// The numbering without interface temperatures.
-    pub(crate) fn layout(&self) -> Layout {
-        let mut is_mass = self.nodes.iter().map(|node| node.mass.is_some());
-        let elements = self.elements.iter();
-        let mut shapes = elements.map(|entry| self.groups[entry.group].shape());
-        let is_mass: &mut dyn Iterator<Item = bool> = &mut is_mass;
-        let shapes: &mut dyn Iterator<Item = Shape> = &mut shapes;
-        Layout::new(D, is_mass, shapes)
     }
 
     /// The group of each element, and its index there.
@@ -227,9 +221,11 @@ impl<const D: usize> Scene<D> {
                 pairs.push(([index; 2], node.held));
             }
         }
-        let mut masses = self.nodes.iter().map(|node| node.mass);
-        let masses: &mut dyn Iterator<Item = Option<f64>> = &mut masses;
-        Masses::new(masses, pairs)
+        let mut own = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            own.push(node.mass.unwrap_or(0.0));
+        }
+        Masses::new(own, pairs)
     }
 
     /// Which nodes are coupled by masses of solids; empty if none is.

@@ -304,9 +304,9 @@ impl<const W: usize> LinearSystem<W> {
     pub(crate) fn symmetrize(&mut self) {
         for row in 0..self.unknowns {
             for column in 0..row {
-                let places = [[row, column], [column, row]];
-                let places = places.map(|[row, column]| self.storage.position(row, column));
-                if let [Some(one), Some(other)] = places {
+                let one = self.storage.position(row, column);
+                let other = self.storage.position(column, row);
+                if let (Some(one), Some(other)) = (one, other) {
                     let mean = 0.5 * (self.values[one] + self.values[other]);
                     (self.values[one], self.values[other]) = (mean, mean);
                 }

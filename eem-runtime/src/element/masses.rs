@@ -30,21 +30,9 @@ impl MassPair {
 }
 
 impl Masses {
-    /// From the masses of the nodes, `None` for anchors, and pairs, among them the masses of solids at anchors. Entries of
-    /// the same pair add up.
-    pub(crate) fn new(
-        masses: impl Iterator<Item = Option<f64>>,
-        pairs: Vec<([usize; 2], f64)>,
-    ) -> Self {
-        let mut own = Vec::with_capacity(masses.size_hint().0);
-        for mass in masses {
-            own.push(mass.unwrap_or(0.0));
-        }
-        own.shrink_to_fit();
-        Self::of(own, pairs)
-    }
-
-    fn of(own: Vec<f64>, mut pairs: Vec<([usize; 2], f64)>) -> Self {
+    /// From the masses of the nodes, zero for anchors, and pairs, among them the masses of solids at anchors. Entries of the
+    /// same pair add up.
+    pub(crate) fn new(own: Vec<f64>, mut pairs: Vec<([usize; 2], f64)>) -> Self {
         let mut masses = Self {
             own,
             pairs: Vec::new(),

@@ -7,6 +7,7 @@ mod lines;
 #[cfg(feature = "serde")]
 mod scheme_name;
 
+use crate::algebra::indices;
 use crate::element::layout::Shape;
 use crate::element::masses::Masses;
 use crate::element::state::{Energy, State};
@@ -259,17 +260,21 @@ impl Outline {
     pub(crate) fn new(
         dimensions: usize,
         masses: &Masses,
-        shapes: &mut dyn Iterator<Item = Shape>,
+        (places, shapes): (&[[u32; 2]], &[Shape]),
         reservoirs: usize,
     ) -> Self {
-        let element = |shape: Shape| ElementOutline {
-            dashpots: shape.dashpots,
-            thermal: shape.thermal,
-        };
+        let mut elements = Vec::with_capacity(places.len());
+        for &place in places {
+            let [group, _] = indices(place);
+            elements.push(ElementOutline {
+                dashpots: shapes[group].dashpots,
+                thermal: shapes[group].thermal,
+            });
+        }
         Self {
             dimensions,
             anchors: masses.iter().map(|mass| mass.is_none()).collect(),
-            elements: shapes.map(element).collect(),
+            elements,
             reservoirs,
         }
     }

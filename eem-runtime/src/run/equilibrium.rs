@@ -12,11 +12,12 @@ use crate::element::group::{Placed, StepView};
 use crate::element::handle::Node;
 use crate::element::layout::Layout;
 use crate::element::loads::{Prescribed, StepLoads};
+use crate::element::masses::Masses;
 use crate::element::phase::Phase;
 use crate::element::state::State;
 use crate::run::simulation::start::initial_state;
 use crate::scene::Scene;
-use crate::scene::entry::ElementEntry;
+use crate::scene::entry::{self, ElementEntry};
 use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
@@ -229,7 +230,9 @@ impl<const D: usize> Scene<D> {
             return Err(EquilibriumError::Scene { errors });
         }
         // Temperatures are no unknowns.
-        let layout = self.layout();
+        let masses = self.masses();
+        let elements = (&self.places()[..], &self.shapes()[..]);
+        let layout = entry::layout(D, &masses, elements);
         let state = initial_state(self, &layout, None, None);
         let mut state = state.map_err(|errors| EquilibriumError::Scene { errors })?;
         let heat = if settings.balances_heat {
@@ -237,7 +240,7 @@ impl<const D: usize> Scene<D> {
         } else {
             0.0
         };
-        let (next, report) = self.find_rest(settings, &layout, &mut state)?;
+        let (next, report) = self.find_rest(settings, (&masses, &layout), &mut state)?;
         self.take_state(&layout, &next);
         Ok(EquilibriumReport { heat, ..report })
     }
@@ -245,14 +248,13 @@ impl<const D: usize> Scene<D> {
     fn find_rest(
         &self,
         settings: Equilibrium,
-        layout: &Layout,
+        (masses, layout): (&Masses, &Layout),
         state: &mut State,
     ) -> Result<(State, EquilibriumReport), EquilibriumError> {
         let refuse = |errors: Vec<SceneError>| EquilibriumError::Scene { errors };
-        let masses = self.masses();
         let conduction = Conduction::new(&[], Vec::new(), layout);
         let mut loads = StepLoads::new(masses.len() * D, layout, &self.loads, false);
-        let evaluated = loads.evaluate_forces_at(&self.loads, &masses, self.start);
+        let evaluated = loads.evaluate_forces_at(&self.loads, masses, self.start);
         evaluated.map_err(EquilibriumError::Start)?;
         let held = state.temperatures.iter().map(|&theta| Prescribed {
             middle: theta,
@@ -279,7 +281,7 @@ impl<const D: usize> Scene<D> {
         if !errors.is_empty() {
             return Err(refuse(errors));
         }
-        let mut solver = Solver::new(scheme, systems, &masses, layout, &conduction, &loads);
+        let mut solver = Solver::new(scheme, systems, masses, layout, &conduction, &loads);
         for group in &mut groups {
             group.connect(&solver.sites(layout, &conduction));
         }
@@ -291,7 +293,7 @@ impl<const D: usize> Scene<D> {
             conduction: &conduction,
             loads: &loads,
             stages: &[],
-            masses: &masses,
+            masses,
         };
         let how = (settings.newton, arms(&self.elements));
         let rest = AtRest::new(&mut solver, &mut groups, &view, how);

@@ -180,8 +180,10 @@ impl<const D: usize> Simulation<D> {
         (scheme, in_use, needs): (Scheme, Scheme, Needs),
         step: f64,
     ) -> Result<&'s mut Self, Vec<SceneError>> {
-        let ((mut layout, conduction), ends) = (scene.numbering(), scene.ends());
-        let masses = scene.masses();
+        let (masses, ends) = (scene.masses(), scene.ends());
+        let (places, shapes) = (scene.places(), scene.shapes());
+        let parts = (&places[..], &shapes[..]);
+        let (mut layout, conduction) = scene.numbering(&masses, parts);
         let site = Site {
             masses: &masses,
             elements: &ends,
@@ -190,17 +192,14 @@ impl<const D: usize> Simulation<D> {
             loads: &scene.loads,
         };
         let begin = |old| initial_state(scene, &layout, Some(step), old);
-        let (places, shapes, effort, memory, mut state, next);
-        slot.take_if(|used| !used.fits(scene, in_use, &conduction));
+        let (effort, memory, mut state, next);
+        slot.take_if(|used| !used.fits(scene, in_use, (&masses, &conduction), parts));
         if let Some(used) = slot.take()
             && let Stepper::Newton(newton) = used.stepper
         {
-            (places, shapes, effort) = (used.places, used.shapes, used.effort.renewed());
+            (effort, memory) = (used.effort.renewed(), Memory::Used(newton));
             (state, next) = (begin(Some(used.state))?, Some(used.next));
-            memory = Memory::Used(newton);
         } else {
-            places = scene.places();
-            shapes = scene.shapes();
             (effort, state, next) = (Effort::new(), begin(None)?, None);
             let systems = Memory::new(in_use, site, scene.memory_limit);
             memory = systems.map_err(|error| vec![error.into()])?;

@@ -4,6 +4,8 @@ use nalgebra::SVector;
 
 use crate::algebra::vector;
 use crate::element::ends::Ends;
+use crate::element::layout::{Layout, Shape};
+use crate::element::masses::Masses;
 use eem_material::number::compact::compact;
 
 /// A node: an anchor or a mass.
@@ -55,6 +57,18 @@ pub(super) fn places(elements: &[ElementEntry]) -> Vec<[u32; 2]> {
     let places = elements.iter();
     let places = places.map(|entry| [compact(entry.group), compact(entry.place)]);
     places.collect()
+}
+
+/// The numbering of a scene of this dimension without interface temperatures, given the places of its elements and the
+/// capabilities of each group.
+pub(crate) fn layout(
+    dimension: usize,
+    masses: &Masses,
+    (places, shapes): (&[[u32; 2]], &[Shape]),
+) -> Layout {
+    let is_mass = masses.iter().map(|mass| mass.is_some());
+    let shapes = places.iter().map(|&[group, _]| shapes[group as usize]);
+    Layout::new(dimension, is_mass, shapes)
 }
 
 /// The nodes of elements.

@@ -94,7 +94,11 @@ fn has_old_forces(scheme: Scheme, loads: &StepLoads) -> bool {
 /// How many viscous stretches and temperatures are predicted: all by exact schemes with one set of forces in a step.
 fn predicted(scheme: Scheme, layout: &Layout) -> [usize; 2] {
     let predicts = scheme.is_exact() && scheme.tableau().is_none() && !scheme.is_split();
-    [layout.viscous, layout.thermal].map(|count| if predicts { count } else { 0 })
+    if predicts {
+        [layout.viscous, layout.thermal]
+    } else {
+        [0; 2]
+    }
 }
 
 impl<const D: usize> Solver<D> {

@@ -73,21 +73,29 @@ fn tangent_pattern(
         return blocks;
     }
     Pattern::new(layout.unknowns, |pair| {
+        let mut own = Vec::new();
         for rocket in rockets {
-            let positions = || nodes_of(rocket, layout).flat_map(|first| first..first + dimension);
-            pair_all(positions, pair);
+            own.clear();
+            for first in nodes_of(rocket, layout) {
+                own.extend(first..first + dimension);
+            }
+            pair_all(&own, pair);
         }
         for (nodes, slots) in elements.iter().zip(&layout.elements) {
-            let slot = slots.thermal;
-            let own = || {
-                let nodes = nodes.iter().filter_map(|&node| layout.nodes[node as usize]);
-                let positions = nodes.flat_map(|first| first..first + dimension);
-                positions.chain(slot.and_then(|slot| layout.coupled[slot]))
+            own.clear();
+            for &node in nodes {
+                if let Some(first) = layout.nodes[node as usize] {
+                    own.extend(first..first + dimension);
+                }
+            }
+            let Some(slot) = slots.thermal else {
+                pair_all(&own, pair);
+                continue;
             };
-            let links = slot.map_or(&[][..], |slot| conduction.links(slot));
-            pair_all(own, pair);
-            for row in own() {
-                for link in links {
+            own.extend(layout.coupled[slot]);
+            pair_all(&own, pair);
+            for &row in &own {
+                for link in conduction.links(slot) {
                     if let Partner::Slot(partner) = link.partner
                         && let Some(column) = layout.coupled[partner]
                     {
@@ -108,31 +116,40 @@ fn mass_pattern(
 ) -> Pattern {
     let masses = layout.nodes.iter().flatten().count();
     Pattern::new(masses, |pair| {
+        let mut own = Vec::new();
         for nodes in elements.iter() {
-            let masses = || {
-                let nodes = nodes.iter().filter_map(|&node| layout.nodes[node as usize]);
-                nodes.map(|first| first / dimension)
-            };
-            pair_all(masses, pair);
+            own.clear();
+            for &node in nodes {
+                own.extend(layout.nodes[node as usize].map(|first| first / dimension));
+            }
+            pair_all(&own, pair);
         }
         for rocket in rockets {
-            let masses = || nodes_of(rocket, layout).map(|first| first / dimension);
-            pair_all(masses, pair);
+            own.clear();
+            for first in nodes_of(rocket, layout) {
+                own.push(first / dimension);
+            }
+            pair_all(&own, pair);
         }
     })
 }
 
 /// The first unknowns of the nodes of a rocket.
-fn nodes_of<'a>(rocket: &PushLine, layout: &'a Layout) -> impl Iterator<Item = usize> + 'a {
-    let &PushLine { node, tail, head } = rocket;
-    let nodes = [node, tail, head].into_iter();
-    nodes.filter_map(|node| layout.nodes[node.index])
+fn nodes_of(rocket: &PushLine, layout: &Layout) -> Vec<usize> {
+    let mut unknowns = Vec::new();
+    for node in [rocket.node, rocket.tail, rocket.head] {
+        unknowns.extend(layout.nodes[node.index]);
+    }
+    unknowns
 }
 
 /// Adds every pair of some unknowns.
-fn pair_all<I: Iterator<Item = usize>>(own: impl Fn() -> I, pair: &mut dyn FnMut(usize, usize)) {
-    for row in own() {
-        let before = own().filter(|&column| column < row);
-        before.for_each(|column| pair(row, column));
+fn pair_all(own: &[usize], pair: &mut dyn FnMut(usize, usize)) {
+    for &row in own {
+        for &column in own {
+            if column < row {
+                pair(row, column);
+            }
+        }
     }
 }

@@ -76,8 +76,11 @@ impl<const D: usize> Simulation<D> {
             return Err(failed);
         };
         let before = self.scheme_at_work();
-        for scheme in CANDIDATES.into_iter().filter(|&scheme| scheme != own) {
-            if self.is_candidate(scheme, control) && self.switches_to(scheme, control) {
+        for &scheme in &CANDIDATES {
+            if scheme != own
+                && self.is_candidate(scheme, control)
+                && self.switches_to(scheme, control)
+            {
                 self.step = usual;
                 if self.counted_step(control, end).is_ok() {
                     self.record_switch(control, usual);

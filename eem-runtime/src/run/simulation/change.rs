@@ -9,8 +9,9 @@ use super::start::check_tolerance;
 use super::stepper::{Memory, Stepper};
 use crate::algebra::memory::TooLarge;
 use crate::element::ends::Ends;
-use crate::element::layout::{Layout, Shape};
+use crate::element::layout::Layout;
 use crate::run::checkpoint::SavedControl;
+use crate::scene::entry;
 use crate::scene::error::SceneError;
 use crate::step::automatic::SchemeSelection;
 use crate::step::control::{Controller, Tolerance};
@@ -122,11 +123,8 @@ impl<const D: usize> Simulation<D> {
 
     /// The numbering of the unknowns and state variables, as the scene had it.
     pub(super) fn numbering(&self) -> Layout {
-        let mut is_mass = self.masses.iter().map(|mass| mass.is_some());
-        let mut shapes = self.all_elements().map(|(shape, ..)| shape);
-        let is_mass: &mut dyn Iterator<Item = bool> = &mut is_mass;
-        let shapes: &mut dyn Iterator<Item = Shape> = &mut shapes;
-        let mut layout = Layout::new(D, is_mass, shapes);
+        let elements = (&self.places[..], &self.shapes[..]);
+        let mut layout = entry::layout(D, &self.masses, elements);
         layout.couple(|slot| self.conduction.meets_slots(slot));
         layout
     }

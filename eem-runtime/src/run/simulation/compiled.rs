@@ -13,6 +13,8 @@ use crate::algebra::memory::TooLarge;
 use crate::element::conduction::Conduction;
 #[cfg(not(test))]
 use crate::element::group::springs::of_dimension;
+use crate::element::layout::Shape;
+use crate::element::masses::Masses;
 use crate::run::checkpoint::{Checkpoint, RestoreError};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
@@ -230,36 +232,33 @@ impl<const D: usize> Simulation<D> {
         is_small && self.loads.are_at_most_weight()
     }
 
-    /// Whether a scene with these paths of heat, stepped by this scheme, differs from that of this run in numbers only.
-    pub(super) fn fits(&self, scene: &Scene<D>, scheme: Scheme, conduction: &Conduction) -> bool {
+    /// Whether a scene with these masses and paths of heat, and places and shapes of elements, stepped by this scheme, differs from that
+    /// of this run in numbers only.
+    pub(super) fn fits(
+        &self,
+        scene: &Scene<D>,
+        scheme: Scheme,
+        (masses, conduction): (&Masses, &Conduction),
+        (places, shapes): (&[[u32; 2]], &[Shape]),
+    ) -> bool {
         let are_alike = scheme == self.in_use
             && scene.pairs.is_empty()
             && scene.loads.are_at_most_weight()
             && scene.loads.have_weight() == self.loads.have_weight()
-            && scene.nodes.len() == self.masses.len()
-            && scene.groups.len() == self.shapes.len()
-            && scene.elements.len() == self.places.len();
+            && masses.anchors().eq(self.masses.anchors())
+            && masses.len() == self.masses.len()
+            && (places, shapes) == (&self.places, &self.shapes)
+            && conduction.joins_like(&self.conduction);
         if !are_alike {
             return false;
         }
-        for (index, node) in scene.nodes.iter().enumerate() {
-            if node.mass.is_some() != self.masses.get(index).is_some() {
+        for (&place, entry) in places.iter().zip(&scene.elements) {
+            let [group, place] = indices(place);
+            if !are_same(self.stepper.elements(group).nodes(place), &entry.nodes) {
                 return false;
             }
         }
-        for (index, group) in scene.groups.iter().enumerate() {
-            if group.shape() != self.shapes[index] {
-                return false;
-            }
-        }
-        for (index, entry) in scene.elements.iter().enumerate() {
-            let [group, place] = indices(self.places[index]);
-            let nodes = self.stepper.elements(group).nodes(place);
-            if [entry.group, entry.place] != [group, place] || !are_same(nodes, &entry.nodes) {
-                return false;
-            }
-        }
-        conduction.joins_like(&self.conduction)
+        true
     }
 }
 

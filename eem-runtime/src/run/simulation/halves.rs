@@ -21,6 +21,7 @@ use super::stepper::Stepper;
 use super::{Simulation, Stepped, Tried};
 use crate::algebra::vector;
 use crate::element::group::points;
+use crate::element::handle::Node;
 use crate::element::layout::Slots;
 use crate::element::state::State;
 use crate::step::control::{Kinds, LoadRounding, Scales, Unknown, length, norm};
@@ -79,9 +80,8 @@ impl<const D: usize> Simulation<D> {
             let beyond = scales.error(states, &halves.kinds, Some(&halves.rounding));
             let accurate = (memory.tolerance.relative, accuracy);
             // After a step the next state is the one before it.
-            let ends = [&*self.next, &*self.state];
-            let mut ends = ends.into_iter();
-            let rests = ends.all(|state| self.least.all_rest(D, [&halves.before, state]));
+            let rests = |end| self.least.all_rest(D, [&halves.before, end]);
+            let rests = rests(&self.next) && rests(&self.state);
             error = if rests {
                 beyond
             } else {
@@ -164,31 +164,23 @@ impl<const D: usize> Simulation<D> {
             }
             (None, Stepper::Newton(_)) => return None,
         };
-        let (quantity, unit, setting) = match unknown {
-            Unknown::Position(_) => ("position", "m", "`with_position`"),
-            Unknown::Momentum(_) => ("momentum", "kg m/s", "`with_momentum`"),
-            Unknown::Viscous(index) if self.viscous_strains()[index] => {
-                ("viscous strain", "", "`with_position`")
-            }
-            Unknown::Viscous(_) => ("viscous stretch", "m", "`with_position`"),
-            Unknown::Temperature(_) => ("temperature", "K", "`with_temperature`"),
-        };
-        let place = match unknown {
+        let (place, is_strain) = match unknown {
             Unknown::Position(index) | Unknown::Momentum(index) => {
-                format!("{} along axis {}", self.scene.node(index / D), index % D)
+                let place = along_axis(self.scene.node(index / D), index % D);
+                (place, false)
             }
-            Unknown::Viscous(index) => self.element_with(&|own, dashpots| {
-                (own.viscous..own.viscous + dashpots).contains(&index)
-            })?,
-            Unknown::Temperature(slot) => self.element_with(&|own, _| own.thermal == Some(slot))?,
+            Unknown::Viscous(index) => {
+                let place = self.element_with(&|own, dashpots| {
+                    (own.viscous..own.viscous + dashpots).contains(&index)
+                });
+                (place?, self.viscous_strains()[index])
+            }
+            Unknown::Temperature(slot) => {
+                let place = self.element_with(&|own, _| own.thermal == Some(slot));
+                (place?, false)
+            }
         };
-        Some(WorstError {
-            of: format!("the {quantity} of {place}"),
-            unit,
-            error,
-            allowed,
-            setting,
-        })
+        Some(worst_of(unknown, is_strain, &place, [error, allowed]))
     }
 
     /// The first element whose slots and number of dashpots satisfy a condition.
@@ -199,6 +191,33 @@ impl<const D: usize> Simulation<D> {
             }
         }
         None
+    }
+}
+
+fn along_axis(node: Node, axis: usize) -> String {
+    format!("{node} along axis {axis}")
+}
+
+/// The error of an unknown of the node or the element with this name.
+fn worst_of(
+    unknown: Unknown,
+    is_strain: bool,
+    place: &str,
+    [error, allowed]: [f64; 2],
+) -> WorstError {
+    let (quantity, unit, setting) = match unknown {
+        Unknown::Position(_) => ("position", "m", "`with_position`"),
+        Unknown::Momentum(_) => ("momentum", "kg m/s", "`with_momentum`"),
+        Unknown::Viscous(_) if is_strain => ("viscous strain", "", "`with_position`"),
+        Unknown::Viscous(_) => ("viscous stretch", "m", "`with_position`"),
+        Unknown::Temperature(_) => ("temperature", "K", "`with_temperature`"),
+    };
+    WorstError {
+        of: format!("the {quantity} of {place}"),
+        unit,
+        error,
+        allowed,
+        setting,
     }
 }
 

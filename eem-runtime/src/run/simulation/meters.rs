@@ -70,10 +70,11 @@ impl<const D: usize> Simulation<D> {
             [0; 3]
         };
         let names = ["heat of dashpots", "entropy production", "conducted heat"];
-        let mut counts = names
-            .into_iter()
-            .zip(meters.counts().into_iter().zip(expected));
-        counts.try_for_each(|(quantity, (own, other))| expect_count(quantity, own, other))
+        let own = meters.counts();
+        for (index, quantity) in names.into_iter().enumerate() {
+            expect_count(quantity, own[index], expected[index])?;
+        }
+        Ok(())
     }
 
     /// A sum, zero before the sums began, if the scheme closes its balances, by which it is defined.

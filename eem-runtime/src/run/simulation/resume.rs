@@ -43,11 +43,11 @@ impl<const D: usize> Simulation<D> {
 
     pub(super) fn checkpoint_here(&self) -> Checkpoint {
         let (past, explicit) = self.stepper.past(&self.state);
-        let mut shapes = self.all_elements().map(|(shape, ..)| shape);
+        let elements = (&self.places[..], &self.shapes[..]);
         let reservoirs = self.conduction.reservoirs.len();
         Checkpoint {
             scheme: self.scheme,
-            outline: Outline::new(D, &self.masses, &mut shapes, reservoirs),
+            outline: Outline::new(D, &self.masses, elements, reservoirs),
             numbers: self.numbers(),
             step: self.step,
             newton: self.newton_settings(),

@@ -118,7 +118,8 @@ impl LeastScales {
         (0..self.nodes.len()).all(|node| {
             let first = node * dimension;
             let of_node = |all: &'a [f64]| &all[first..first + dimension];
-            self.is_at_rest(node, positions.map(of_node), momenta.map(of_node))
+            let [old, new] = [of_node(positions[0]), of_node(positions[1])];
+            self.is_at_rest(node, [old, new], [of_node(momenta[0]), of_node(momenta[1])])
         })
     }
 

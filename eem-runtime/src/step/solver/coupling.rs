@@ -68,7 +68,8 @@ impl<const D: usize> Coupling<D> {
         for set in 0..sets {
             let sites = sites.of_sets([set, set]);
             for pair in masses.pairs() {
-                let [Some(a), Some(b)] = pair.nodes().map(|node| unknowns[node]) else {
+                let [a, b] = pair.nodes();
+                let (Some(a), Some(b)) = (unknowns[a], unknowns[b]) else {
                     continue;
                 };
                 let place = |row: usize, column: usize| {
