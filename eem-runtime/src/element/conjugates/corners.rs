@@ -40,9 +40,11 @@ pub(crate) fn find_corners_together<'a, A: Arrays>(
     corners: &mut [A::Corners],
 ) -> Result<(), Infeasible> {
     let count = corners.len();
-    let mut searches: [_; MOST_TOGETHER] =
-        core::array::from_fn(|index| Search::<A>::new(&corners[index % count]));
+    let mut searches = [Search::<A>::new(&corners[0]); MOST_TOGETHER];
     let searches = &mut searches[..count];
+    for (search, corners) in searches.iter_mut().zip(&*corners) {
+        *search = Search::new(corners);
+    }
     let mut mixed = [[corners[0]; 2]; MOST_TOGETHER];
     let mixed = &mut mixed[..count];
     while !searches.iter().all(|search| search.settled) {
@@ -63,6 +65,7 @@ pub(crate) fn find_corners_together<'a, A: Arrays>(
 }
 
 /// Newton's method in ln θ for the temperatures of the mixed states of an element.
+#[derive(Clone, Copy)]
 struct Search<A: Arrays> {
     guesses: A::Corners,
     /// The largest correction with which Newton's method continues.
@@ -143,7 +146,7 @@ fn search_corners<A: Arrays>(
     mut corners: A::Corners,
 ) -> Result<A::Corners, Infeasible> {
     let steps = A::Corners::LEN / 2;
-    let [old, new] = [x0, x1].map(|x| model.caloric(x));
+    let (old, new) = (model.caloric(x0), model.caloric(x1));
     Infeasible::unless_stable(new.heat_capacity, x1[A::Variables::LEN - 1])?;
     for k in 1..=steps {
         for (first, ends, entropy) in [(0, [x0, x1], old.entropy), (steps, [x1, x0], new.entropy)] {

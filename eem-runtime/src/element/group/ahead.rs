@@ -5,11 +5,12 @@ use super::point::{Point, Viscosities, variables};
 use super::pose::placed_arms;
 use crate::element::conjugates::{Family, Form, OneSet, find_corners_together};
 use crate::element::group::view::Trial;
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::{Kinematics, MeasureSet};
 use crate::element::state::State;
 use eem_material::arrays::Arrays;
 use eem_material::formulas::TogetherIn;
 use eem_material::free_energy::{Array, Caloric, ExactForm, MOST_TOGETHER, Steps};
+use eem_material::tabled::Tabled;
 
 /// The elements that are evaluated in one call, in blocks, and room for the values of a block.
 pub(super) struct Ahead<A: Arrays> {
@@ -21,6 +22,11 @@ pub(super) struct Ahead<A: Arrays> {
     pub(super) responses: [A::Response; MOST_TOGETHER],
     pub(super) viscosities: [Viscosities<A>; MOST_TOGETHER],
     pub(super) caloric: [(Caloric<f64>, f64); MOST_TOGETHER],
+}
+
+/// Places without length.
+fn no_places<'a>() -> [&'a mut [f64]; MOST_TOGETHER] {
+    core::array::from_fn(|_| Default::default())
 }
 
 /// The functions of a block, unless its elements are too few for a call.
@@ -42,15 +48,13 @@ fn form_together<A: Arrays, K: Kinematics<D>, const D: usize>(
 }
 
 impl<A: Arrays> Ahead<A> {
-    /// For these elements; `None` if all are evaluated one by one.
-    pub(super) fn new<K: Kinematics<D>, const D: usize>(
-        members: &[Member<A, K, D>],
-    ) -> Option<Box<Self>> {
+    /// For elements of these materials; `None` if all are evaluated one by one.
+    pub(super) fn new(models: &mut dyn Iterator<Item = &Tabled<A>>) -> Option<Box<Self>> {
         let mut blocks = Vec::new();
         let mut is_worthwhile = false;
         let mut last: Option<&TogetherIn<A>> = None;
-        for member in members {
-            let together = member.only().model.together()?;
+        for model in models {
+            let together = model.together()?;
             let is_same = last.is_some_and(|last| core::ptr::addr_eq(last, together));
             match blocks.last_mut() {
                 Some(count) if is_same && *count < MOST_TOGETHER => *count += 1,
@@ -90,7 +94,7 @@ impl<A: Arrays> Ahead<A> {
         let Some((form, _)) = form_together(scheme, members) else {
             return false;
         };
-        let mut kept: [&mut [f64]; MOST_TOGETHER] = core::array::from_fn(|_| Default::default());
+        let mut kept = no_places();
         let (count, mut together) = (members.len(), None);
         for ((x0, kept), member) in self.x.iter_mut().zip(&mut kept).zip(members) {
             let Point { model, start, .. } = &mut member.points.as_mut()[0].point;
@@ -115,19 +119,31 @@ impl<A: Arrays> Ahead<A> {
         let Some((form, together)) = form.filter(|_| !trial.is_start) else {
             return false;
         };
-        let count = members.len();
+        for (x, member) in self.x.iter_mut().zip(members) {
+            *x = member.placed_variables::<C>(trial);
+        }
+        let point = |index: usize| &members[index].only().point;
+        self.evaluate((form, together), (members.len(), &point), has_tangent)
+    }
+
+    /// The same of so many points, at the variables that are stored.
+    fn evaluate<'a, Q: MeasureSet>(
+        &mut self,
+        (form, together): (ExactForm, &TogetherIn<A>),
+        (count, point): (usize, &dyn Fn(usize) -> &'a Point<A, Q>),
+        has_tangent: bool,
+    ) -> bool {
         let mut kept: [&[f64]; MOST_TOGETHER] = [&[]; MOST_TOGETHER];
-        for (index, member) in members.iter().enumerate() {
-            self.x[index] = member.placed_variables::<C>(trial);
-            self.corners[index] = member.only().corners;
-            kept[index] = member.only().start.kept();
+        for index in 0..count {
+            self.corners[index] = point(index).corners;
+            kept[index] = point(index).start.kept();
         }
         let (x1, kept) = (&self.x[..count], &kept[..count]);
         let corners = &mut self.corners[..count];
-        if members[0].only().is_thermal() && form == ExactForm::Entropy {
+        if point(0).is_thermal() && form == ExactForm::Entropy {
             let ends = |index: usize| {
-                let point = members[index].only();
-                (&point.model, [&point.start.x0, &x1[index]])
+                let Point { model, start, .. } = point(index);
+                (model, [&start.x0, &x1[index]])
             };
             if find_corners_together(together, ends, (kept, x1), corners).is_err() {
                 return false;
@@ -135,7 +151,7 @@ impl<A: Arrays> Ahead<A> {
         }
         let steps = Steps { kept, x1, corners };
         // Materials without temperature ignore it, so that any entry will do.
-        let at = Point::<A, K::Measures>::TEMPERATURE * usize::from(A::THERMAL);
+        let at = Point::<A, Q>::TEMPERATURE * usize::from(A::THERMAL);
         let mut theta = [0.0; MOST_TOGETHER];
         if has_tangent {
             let forms = &mut self.forms[..count];

@@ -64,7 +64,7 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
 
     fn magnitude_of_pull(&self, r1: &Arms<K, D>, motion: f64) -> f64 {
         let sizes = self.sizes(r1, &self.x);
-        let [old, new] = [&self.start.x0, &self.x].map(measures_in::<K::Measures>);
+        let (old, new) = (self.old_measures(), measures_in::<K::Measures>(&self.x));
         let slopes = self.kinematics.slopes(r1, &new);
         let slope_sizes = self.kinematics.slope_sizes(r1, &new);
         let mut sum = 0.0;
@@ -72,8 +72,8 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
             sum += slope_sizes[a] * self.pull_of_row::<Any>(a).abs();
             sum += slopes[a] * self.resolution_of_row(a, &sizes);
         }
-        let lengths = [old, new].map(|measures| self.kinematics.length(&measures));
-        sum * (1.0 + motion / Scalar::minimum(lengths[0], lengths[1]))
+        let length = |measures| self.kinematics.length(measures);
+        sum * (1.0 + motion / Scalar::minimum(length(&old), length(&new)))
     }
 
     /// Adds the terms that the bound of the next step needs of a state with these arms: those of the forces and, except

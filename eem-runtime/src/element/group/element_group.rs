@@ -49,7 +49,7 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
             members.push(Member::new(scheme, parts, placed));
         }
         let ahead = if const { K::Measures::IS_SPRING } {
-            Ahead::new(&members)
+            Ahead::new(&mut members.iter().map(|member| &member.only().point.model))
         } else {
             None
         };

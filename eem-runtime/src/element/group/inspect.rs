@@ -41,12 +41,14 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup<A
     }
 
     fn energy_terms(&self, state: &State) -> f64 {
-        let members = self.members.iter();
-        members.fold(0.0, |sum, member| {
+        let mut sum = 0.0;
+        for member in &self.members {
             let r = member.arms_in(state);
-            let points = member.points.as_ref().iter();
-            points.fold(sum, |sum, point| sum + point.energy_in(&r, state).terms)
-        })
+            for point in member.points.as_ref() {
+                sum += point.energy_in(&r, state).terms;
+            }
+        }
+        sum
     }
 
     fn add_totals(&self, state: &State, totals: &mut ElementTotals) {

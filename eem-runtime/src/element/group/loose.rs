@@ -63,9 +63,13 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> LooseElements<A, K, D> {
     pub(super) fn infinite_parameter_at(&self, place: usize) -> Option<(&'static str, f64)> {
         let (_, points) = &self.elements[place / Self::POINTS];
         let (model, _) = &points.as_ref()[place % Self::POINTS];
-        let parameters = model.parameter_names().iter().enumerate();
-        let mut values = parameters.map(|(index, &name)| (name, model.parameter(index)));
-        values.find(|(_, value)| !value.is_finite())
+        for (index, &name) in model.parameter_names().iter().enumerate() {
+            let value = model.parameter(index);
+            if !value.is_finite() {
+                return Some((name, value));
+            }
+        }
+        None
     }
 
     /// A copy of the elements.

@@ -56,9 +56,9 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
             self.variables_in(&r1, ends[1]),
         ];
         let increments = self.increments_between([&r0, &r1], &change, &x, ends);
-        let magnitude = x.map(|x| self.model.energy_magnitude(&x));
+        let magnitude = |x| self.model.energy_magnitude(x);
         EnergyChange {
-            by_values: [by_values, magnitude[0] + magnitude[1]],
+            by_values: [by_values, magnitude(&x[0]) + magnitude(&x[1])],
             by_differences: self.energy_change(&x, &increments),
             increments,
         }
@@ -73,7 +73,10 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
         [old, new]: [&State; 2],
     ) -> A::Variables {
         let mut increments = A::Variables::filled(0.0);
-        let measures = [x0, x1].map(measures_in::<K::Measures>);
+        let measures = [
+            measures_in::<K::Measures>(x0),
+            measures_in::<K::Measures>(x1),
+        ];
         let ends = Ends::new(&self.kinematics, [*r0, *r1], measures);
         let gradient = self.kinematics.discrete_gradient(&ends);
         for (a, row) in gradient.as_ref().iter().enumerate() {

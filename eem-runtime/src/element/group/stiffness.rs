@@ -69,7 +69,8 @@ pub(super) fn stiffness_of<'a, A: Arrays, Q: MeasureSet>(
     for row in (A::MEASURES..last).map(|row| &hessian[row]) {
         let by_nodes = (0..A::MEASURES).fold(0.0, |sum, a| sum + row[a].abs() * slopes[a]);
         let own = (A::MEASURES..last).fold(0.0, |sum, k| sum + (row[k] * x[k]).abs());
-        pull = [(pull[0], by_nodes), (pull[1], own)].map(|(a, b)| Scalar::maximum(a, b));
+        pull[0] = Scalar::maximum(pull[0], by_nodes);
+        pull[1] = Scalar::maximum(pull[1], own);
     }
     let theta = if model.is_thermal() { x[last] } else { 0.0 };
     let capacity = slots

@@ -64,8 +64,10 @@ impl<A: Arrays, K: Kinematics<D>, E: StageEquations<A, K::Measures>, const D: us
 
     /// Number of dashpots in series of every point, and whether they have a temperature.
     fn dashpots_and_temperature(&self) -> (usize, bool) {
-        let first = self.elements.points().next();
-        first.map_or((0, false), |point| (point.dashpots(), point.is_thermal()))
+        match self.elements.members.first() {
+            Some(first) => (first.only().dashpots(), first.only().is_thermal()),
+            None => (0, false),
+        }
     }
 
     fn unknowns_and_inputs(&self) -> [usize; 2] {
@@ -101,8 +103,11 @@ impl<A: Arrays, K: QuadraticStrain<D>, E: StageEquations<A, K::Measures>, const 
     }
 
     fn sites(&self) -> Vec<Site<K, D>> {
-        let members = self.elements.members.iter();
-        members.map(|member| member.site).collect()
+        let mut sites = Vec::with_capacity(self.elements.members.len());
+        for member in &self.elements.members {
+            sites.push(member.site);
+        }
+        sites
     }
 
     fn kinematics(&self, place: usize) -> K {
