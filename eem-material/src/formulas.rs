@@ -10,7 +10,7 @@
 use core::any::Any;
 
 use crate::arrays::Arrays;
-use crate::free_energy::{Array, Caloric, FreeEnergy, Material, Rates, Together, TogetherOf};
+use crate::free_energy::{Array, Caloric, FreeEnergy, Material, Together, TogetherOf};
 use crate::inversion::{InversionError, temperature_near};
 
 /// What is known of a material without evaluating it, see the functions of [`FreeEnergy`] with these names.
@@ -41,7 +41,6 @@ pub trait Formulas<A: Arrays>: Send + Sync {
     fn parameter(&self, index: usize) -> f64;
     fn free_energy(&self, x: &A::Variables) -> f64;
     fn energy_magnitude(&self, x: &A::Variables) -> f64;
-    fn internal_energy(&self, x: &A::Variables) -> f64;
     fn gradient(&self, x: &A::Variables) -> A::Variables;
     fn hessian(&self, x: &A::Variables) -> (A::Variables, A::Hessian);
     fn caloric(&self, x: &A::Variables) -> Caloric<f64>;
@@ -58,8 +57,6 @@ pub trait Formulas<A: Arrays>: Send + Sync {
     ///
     /// As [`invert`](crate::invert).
     fn temperature_of(&self, x: &A::Variables, numbers: [f64; 3]) -> Result<f64, InversionError>;
-    fn rates(&self, x: &A::Variables) -> Rates<A::Variables>;
-    fn rates_at(&self, x: &A::Variables, theta: f64) -> (Rates<A::Variables>, [f64; 2]);
     fn entropy_hessian(&self, x: &A::Variables) -> A::Hessian;
     fn viscosity(&self, theta: f64) -> (A::Viscosities, A::Viscosities);
     fn drag(&self, theta: f64) -> (A::Drag, A::Drag);
@@ -106,7 +103,6 @@ pub trait Formulas<A: Arrays>: Send + Sync {
         corners: &A::Corners,
         direction: &[f64],
     ) -> A::Response;
-    fn gradient_adjoint(&self, x: &A::Variables, weights: &A::Variables, found: &mut [f64]);
     fn energy_by_parameters(&self, x: &A::Variables, found: &mut [f64]);
     fn viscosity_adjoint(&self, theta: f64, weights: &A::Viscosities, found: &mut [f64]);
     fn drag_adjoint(&self, theta: f64, weights: &A::Drag, found: &mut [f64]);
@@ -228,10 +224,6 @@ where
         FreeEnergy::energy_magnitude(self, x)
     }
 
-    fn internal_energy(&self, x: &M::Variables) -> f64 {
-        FreeEnergy::internal_energy(self, x)
-    }
-
     fn gradient(&self, x: &M::Variables) -> M::Variables {
         FreeEnergy::gradient(self, x)
     }
@@ -265,14 +257,6 @@ where
         let caloric_at = FreeEnergy::caloric_at(self, *x);
         let found = temperature_near(|theta| (caloric_at(theta).0, []), entropy, guess, enough);
         found.map(|(theta, [])| theta)
-    }
-
-    fn rates(&self, x: &M::Variables) -> Rates<M::Variables> {
-        FreeEnergy::rates(self, x)
-    }
-
-    fn rates_at(&self, x: &M::Variables, theta: f64) -> (Rates<M::Variables>, [f64; 2]) {
-        FreeEnergy::rates_at(self, *x)(theta)
     }
 
     fn entropy_hessian(&self, x: &M::Variables) -> M::Hessian {
@@ -387,13 +371,6 @@ where
         direction: &[f64],
     ) -> M::Response {
         FreeEnergy::entropy_form_tangent(self, x0, x1, corners, &parameters::<M>(direction))
-    }
-
-    fn gradient_adjoint(&self, x: &M::Variables, weights: &M::Variables, found: &mut [f64]) {
-        copy(
-            FreeEnergy::gradient_adjoint(self, x, weights).as_ref(),
-            found,
-        );
     }
 
     fn energy_by_parameters(&self, x: &M::Variables, found: &mut [f64]) {

@@ -287,11 +287,6 @@ pub trait FreeEnergy<S: Scalar> {
     /// The values of the old state for [`entropy_form`](Self::entropy_form).
     fn entropy_form_old(&self, x0: &Self::Variables) -> Self::EntropyFormOld;
 
-    /// The same in its place.
-    fn keep_for_entropy_form(&self, x0: &Self::Variables, old: &mut Self::EntropyFormOld) {
-        *old = self.entropy_form_old(x0);
-    }
-
     /// The response in entropy form and its tangent `∂(response)/∂x¹`.
     ///
     /// `corners` are the temperatures of the mixed states between old and new:
@@ -342,11 +337,6 @@ pub trait FreeEnergy<S: Scalar> {
 
     /// The values of the old state for [`temperature_form`](Self::temperature_form).
     fn temperature_form_old(&self, x0: &Self::Variables) -> Self::TemperatureFormOld;
-
-    /// The same in its place.
-    fn keep_for_temperature_form(&self, x0: &Self::Variables, old: &mut Self::TemperatureFormOld) {
-        *old = self.temperature_form_old(x0);
-    }
 
     /// The response in temperature form and its tangent `∂(response)/∂x¹`
     /// (Conde Martín, Betsch & García Orden 2016, eqs. 37–39):

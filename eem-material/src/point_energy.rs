@@ -1,6 +1,6 @@
 //! The free energy of a point of a solid: the free energy per volume times the volume.
 
-use crate::free_energy::{Array, Caloric, FreeEnergy, Rates};
+use crate::free_energy::{Array, Caloric, FreeEnergy};
 
 /// The free energy of a volume. Energy, entropy, forces and viscosities are multiplied by the volume, temperatures are not.
 #[derive(Clone, Debug)]
@@ -28,13 +28,6 @@ impl<M: FreeEnergy<f64>> PointEnergy<M> {
             *row = self.scaled(*row);
         }
         rows
-    }
-
-    fn scaled_rates(&self, rates: Rates<M::Variables>) -> Rates<M::Variables> {
-        Rates {
-            forces: self.scaled(rates.forces),
-            slopes: self.scaled(rates.slopes),
-        }
     }
 
     fn scaled_caloric(&self, caloric: Caloric<f64>) -> Caloric<f64> {
@@ -183,18 +176,6 @@ impl<M: FreeEnergy<f64>> FreeEnergy<f64> for PointEnergy<M> {
         new: usize,
     ) -> impl Fn(f64) -> (Caloric<f64>, f64) {
         self.scaled_at(self.density.caloric_between(x0, x1, new))
-    }
-
-    fn rates(&self, x: &M::Variables) -> Rates<M::Variables> {
-        self.scaled_rates(self.density.rates(x))
-    }
-
-    fn rates_at(&self, x: M::Variables) -> impl Fn(f64) -> (Rates<M::Variables>, [f64; 2]) {
-        let density = self.density.rates_at(x);
-        move |theta| {
-            let (rates, values) = density(theta);
-            (self.scaled_rates(rates), self.scaled(values))
-        }
     }
 
     fn entropy_hessian(&self, x: &M::Variables) -> M::Hessian {

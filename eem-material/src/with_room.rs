@@ -11,7 +11,7 @@ use core::any::Any;
 use core::marker::PhantomData;
 
 use crate::arrays::Arrays;
-use crate::free_energy::{Array, Caloric, FreeEnergy, Material, Rates};
+use crate::free_energy::{Array, Caloric, FreeEnergy, Material};
 
 /// A material in the arrays A.
 pub struct WithRoom<M, A> {
@@ -113,13 +113,6 @@ impl<M: Material, A: Arrays> WithRoom<M, A> {
         }
         own
     }
-
-    fn rates_of(rates: &Rates<M::Variables>) -> Rates<A::Variables> {
-        Rates {
-            forces: Self::variables(&rates.forces),
-            slopes: Self::variables(&rates.slopes),
-        }
-    }
 }
 
 impl<M: Material, A: Arrays> FreeEnergy<f64> for WithRoom<M, A> {
@@ -213,18 +206,6 @@ impl<M: Material, A: Arrays> FreeEnergy<f64> for WithRoom<M, A> {
         let new = new.min(used::<M>());
         let [x0, x1] = [x0, x1].map(Self::own);
         self.material.caloric_at(x0.beginning_as(&x1, new))
-    }
-
-    fn rates(&self, x: &A::Variables) -> Rates<A::Variables> {
-        Self::rates_of(&self.material.rates(&Self::own(x)))
-    }
-
-    fn rates_at(&self, x: A::Variables) -> impl Fn(f64) -> (Rates<A::Variables>, [f64; 2]) {
-        let at = self.material.rates_at(Self::own(&x));
-        move |theta| {
-            let (rates, values) = at(theta);
-            (Self::rates_of(&rates), values)
-        }
     }
 
     fn entropy_hessian(&self, x: &A::Variables) -> A::Hessian {
@@ -345,11 +326,6 @@ impl<M: Material, A: Arrays> FreeEnergy<f64> for WithRoom<M, A> {
         let ([x0, x1], corners) = ([x0, x1].map(Self::own), Self::own_corners(corners));
         let material = &self.material;
         Self::response(&material.entropy_form_tangent(&x0, &x1, &corners, direction))
-    }
-
-    fn gradient_adjoint(&self, x: &A::Variables, weights: &A::Variables) -> M::Parameters {
-        self.material
-            .gradient_adjoint(&Self::own(x), &Self::own(weights))
     }
 
     fn energy_by_parameters(&self, x: &A::Variables) -> M::Parameters {

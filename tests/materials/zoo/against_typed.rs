@@ -402,6 +402,15 @@ pub(crate) fn behind_tables<M: Material>(model: &M, at: &At) -> Vec<Results> {
         .collect()
 }
 
+/// The explicit scheme and users call them of the material.
+const NOT_IN_TABLE: &[&str] = &[
+    "internal_energy",
+    "rates",
+    "rates_at",
+    "rates_at, s and psi",
+    "gradient_adjoint",
+];
+
 #[test]
 fn materials_of_texts_and_behind_tables_have_the_bits_of_derived_ones() {
     let (mut laws, mut tables) = (0, 0);
@@ -430,8 +439,12 @@ fn materials_of_texts_and_behind_tables_have_the_bits_of_derived_ones() {
                     "{name}, {function} at {at:?}"
                 );
             }
-            for tabled in specimen.behind_tables(&at) {
-                assert_eq!(derived, tabled, "{name} behind a table at {at:?}");
+            let in_table: Vec<_> = (derived.into_iter())
+                .filter(|(function, _)| !NOT_IN_TABLE.contains(function))
+                .collect();
+            for mut tabled in specimen.behind_tables(&at) {
+                tabled.retain(|(function, _)| !NOT_IN_TABLE.contains(function));
+                assert_eq!(in_table, tabled, "{name} behind a table at {at:?}");
                 tables += 1;
             }
         }

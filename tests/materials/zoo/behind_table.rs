@@ -1,6 +1,6 @@
 //! A material behind its table as a free energy again, so that every function of the table is compared.
 
-use eem::{Array, Caloric, FreeEnergy, Rates};
+use eem::{Array, Caloric, FreeEnergy};
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::TogetherOf;
 use eem_material::tabled::Tabled;
@@ -92,8 +92,9 @@ impl<A: Arrays> FreeEnergy<f64> for Behind<A> {
         self.0.energy_magnitude(x)
     }
 
-    fn internal_energy(&self, x: &A::Variables) -> f64 {
-        self.0.internal_energy(x)
+    /// Not in the table.
+    fn internal_energy(&self, _: &A::Variables) -> f64 {
+        f64::NAN
     }
 
     fn gradient(&self, x: &A::Variables) -> A::Variables {
@@ -119,14 +120,6 @@ impl<A: Arrays> FreeEnergy<f64> for Behind<A> {
         new: usize,
     ) -> impl Fn(f64) -> (Caloric<f64>, f64) {
         move |theta| self.0.caloric_between([x0, x1], new, theta)
-    }
-
-    fn rates(&self, x: &A::Variables) -> Rates<A::Variables> {
-        self.0.rates(x)
-    }
-
-    fn rates_at(&self, x: A::Variables) -> impl Fn(f64) -> (Rates<A::Variables>, [f64; 2]) {
-        move |theta| self.0.rates_at(&x, theta)
     }
 
     fn entropy_hessian(&self, x: &A::Variables) -> A::Hessian {
@@ -230,10 +223,6 @@ impl<A: Arrays> FreeEnergy<f64> for Behind<A> {
     ) -> A::Response {
         self.0
             .entropy_form_tangent([x0, x1], corners, self.own(direction))
-    }
-
-    fn gradient_adjoint(&self, x: &A::Variables, weights: &A::Variables) -> Parameters {
-        self.by_parameters(|found| self.0.gradient_adjoint(x, weights, found))
     }
 
     fn energy_by_parameters(&self, x: &A::Variables) -> Parameters {
