@@ -65,8 +65,8 @@ pub(crate) use arms::points;
 pub(crate) use audit::Misfit;
 pub(crate) use build::identity;
 pub(crate) use explicit::{
-    Caloric, ClosingView, ComponentEnergy, Past, Place, Stage, Thermostat, UnkeptEntropy,
-    first_reservoir, is_met,
+    Caloric, ClosingView, Combination, ComponentEnergy, Past, Place, Stage, Thermostat,
+    UnkeptEntropy, first_reservoir, is_met,
 };
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
 pub(crate) use loose::{LooseElements, Parts};

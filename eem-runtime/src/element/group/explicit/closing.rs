@@ -61,12 +61,16 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     }
 
     /// See [`ExplicitGroup::finish`](super::ExplicitGroup::finish).
-    pub(super) fn finish_all(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
+    pub(super) fn finish_all(
+        &self,
+        places: &mut [Place<D>],
+        stage: &mut Stage,
+    ) -> Result<(), StateError> {
         for (point, closed) in self.points.iter().zip(&self.closed) {
             let theta = point.temperature_in(stage);
             let found = closed.at(theta, point.model.dashpots());
-            if !point.write_rates(&found, stage) {
-                return Err(point.refuse(stage));
+            if !point.write_rates(&found, (&mut *places, &mut *stage)) {
+                return Err(point.refuse((places, stage)));
             }
         }
         Ok(())
@@ -81,7 +85,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
         view: &mut ClosingView<'_, D>,
         closed: &mut Closed<M, K, D>,
     ) -> Result<(), StateError> {
-        let r = &arms_of::<K, D>(&self.nodes, &view.stage.places, Place::q);
+        let r = &arms_of::<K, D>(&self.nodes, view.places, Place::q);
         let measures = admissible(&self.kinematics, self.element, r)?;
         let theta = self.temperature_in(view.stage);
         let x = self.variables_at(&measures, view.stage, theta);

@@ -75,7 +75,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
 
     /// Its temperature at a stage; zero without one.
     #[inline]
-    pub(super) fn temperature_in(&self, stage: &Stage<D>) -> f64 {
+    pub(super) fn temperature_in(&self, stage: &Stage) -> f64 {
         if self.model.is_thermal() {
             stage.inner[self.temperature()]
         } else {

@@ -18,19 +18,23 @@ use eem_material::number::scalar::is_positive;
 
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
-    pub(super) fn rates_of_all(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
+    pub(super) fn rates_of_all(
+        &self,
+        places: &mut [Place<D>],
+        stage: &mut Stage,
+    ) -> Result<(), StateError> {
         // Known from here on, so that an index is checked once for both.
         assert!(
             stage.inner.len() == stage.inner_rates.len(),
             "each internal variable has a rate"
         );
         for point in &self.points {
-            let r = arms_of::<K, D>(&point.nodes, &stage.places, Place::q);
+            let r = arms_of::<K, D>(&point.nodes, places, Place::q);
             let measures = point.kinematics.measure(&r);
             let found = point.found_at(&r, &measures, stage);
-            let is_sound = point.write_rates(&found, stage);
+            let is_sound = point.write_rates(&found, (&mut *places, &mut *stage));
             if !(is_sound && point.kinematics.is_admissible(&r, &measures)) {
-                return Err(point.refuse(stage));
+                return Err(point.refuse((places, stage)));
             }
         }
         Ok(())
@@ -80,12 +84,7 @@ fn is_number(value: f64) -> bool {
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "what was found stays in registers")]
-    fn found_at(
-        &self,
-        r: &Arms<K, D>,
-        measures: &Measures<K, D>,
-        stage: &Stage<D>,
-    ) -> Found<M, K, D> {
+    fn found_at(&self, r: &Arms<K, D>, measures: &Measures<K, D>, stage: &Stage) -> Found<M, K, D> {
         let theta = self.temperature_in(stage);
         // Called first: a call of `exp` would spill the registers used below.
         let viscosities = match M::DASHPOTS {
@@ -105,7 +104,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
     pub(super) fn variables_at(
         &self,
         measures: &Measures<K, D>,
-        stage: &Stage<D>,
+        stage: &Stage,
         theta: f64,
     ) -> M::Variables {
         let mut x = M::Variables::filled(0.0);
@@ -127,9 +126,13 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
         clippy::inline_always,
         reason = "what was found stays in registers, and there are two callers"
     )]
-    pub(super) fn write_rates(&self, found: &Found<M, K, D>, stage: &mut Stage<D>) -> bool {
+    pub(super) fn write_rates(
+        &self,
+        found: &Found<M, K, D>,
+        (places, stage): (&mut [Place<D>], &mut Stage),
+    ) -> bool {
         let (at, nodes, is_thermal) = (self.temperature(), self.nodes, self.model.is_thermal());
-        let motion = arms_of::<K, D>(&nodes, &stage.places, Place::velocity);
+        let motion = arms_of::<K, D>(&nodes, places, Place::velocity);
         let Rates { forces, slopes } = &found.rates;
         let mut pull = found.gradient[0];
         scale::<K, D>(&mut pull, forces[0]);
@@ -142,8 +145,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
             drift += slopes[a] * speed;
         }
         for (index, arm) in pull.as_ref().iter().enumerate() {
-            stage.places[nodes[index + 1] as usize].push(arm);
-            stage.places[nodes[0] as usize].pull(arm);
+            places[nodes[index + 1] as usize].push(arm);
+            places[nodes[0] as usize].pull(arm);
         }
         let flow = if is_thermal {
             stage.inner_rates[at]
@@ -187,9 +190,9 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
 
     /// The error of an element that has no valid rates.
     #[cold]
-    pub(super) fn refuse(&self, stage: &Stage<D>) -> StateError {
+    pub(super) fn refuse(&self, (places, stage): (&[Place<D>], &Stage)) -> StateError {
         let (element, is_thermal) = (self.element, self.model.is_thermal());
-        let r = &arms_of::<K, D>(&self.nodes, &stage.places, Place::q);
+        let r = &arms_of::<K, D>(&self.nodes, places, Place::q);
         let measures = self.kinematics.measure(r);
         if !self.kinematics.is_admissible(r, &measures) {
             return self.kinematics.refusal(element, r);

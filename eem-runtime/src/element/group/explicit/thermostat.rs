@@ -11,11 +11,16 @@ use eem_material::free_energy::Material;
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::integrate_thermostats`](super::ExplicitGroup::hold).
     #[cold]
-    pub(super) fn integrate_thermostats_of_all(&self, stage: &mut Stage<D>, is_start: bool) {
+    pub(super) fn integrate_thermostats_of_all(
+        &self,
+        places: &[Place<D>],
+        stage: &mut Stage,
+        is_start: bool,
+    ) {
         for point in &self.points {
             let held = point.slot().filter(|&slot| stage.is_held(slot));
             if let Some(slot) = held {
-                point.integrate_thermostat(slot, stage, is_start);
+                point.integrate_thermostat(slot, (places, stage), is_start);
             }
         }
     }
@@ -23,7 +28,12 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
 
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
     /// Adds the present stage to the integrals of its [thermostat](crate::element::group::explicit::stage::Thermostat).
-    fn integrate_thermostat(&self, slot: usize, stage: &mut Stage<D>, is_start: bool) {
+    fn integrate_thermostat(
+        &self,
+        slot: usize,
+        (places, stage): (&[Place<D>], &mut Stage),
+        is_start: bool,
+    ) {
         let (theta, thermostat) = (stage.theta(slot), &stage.thermostats[slot]);
         let last = thermostat.last;
         #[expect(
@@ -33,10 +43,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
         if theta == last {
             return;
         }
-        let r = arms_of::<K, D>(&self.nodes, &stage.places, Place::q);
+        let r = arms_of::<K, D>(&self.nodes, places, Place::q);
         let measures = self.kinematics.measure(&r);
         let gradient = self.kinematics.gradient(&r, &measures);
-        let motion = arms_of::<K, D>(&self.nodes, &stage.places, Place::velocity);
+        let motion = arms_of::<K, D>(&self.nodes, places, Place::velocity);
         let x = self.variables_at(&measures, stage, theta);
         let at_last = self.variables_at(&measures, stage, last);
         let (own, other) = (
