@@ -65,8 +65,8 @@ pub(crate) use arms::points;
 pub(crate) use audit::Misfit;
 pub(crate) use build::identity;
 pub(crate) use explicit::{
-    Caloric, ClosingView, ComponentEnergy, Past, Place, Stage, Thermostat, UnkeptEntropy,
-    first_reservoir, is_met,
+    Caloric, ClosingView, Combination, ComponentEnergy, Past, Place, Stage, Thermostat,
+    UnkeptEntropy, first_reservoir, is_met,
 };
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
 pub(crate) use loose::{LooseElements, Parts};
@@ -74,6 +74,7 @@ pub(crate) use loose::{LooseElements, Parts};
 pub(crate) use point_step::{
     Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights,
 };
+pub(crate) use stiffness::Stiffness;
 #[cfg(feature = "gradients")]
 pub(crate) use terms::Terms;
 pub(crate) use view::{

@@ -5,12 +5,14 @@
 //! puts energy and momenta back to their targets to rounding.
 //!
 //! ```text
+//! accounts   what does not depend on the dimension: internal variables, energies, entropies
 //! stages     stage vectors, their rates, and the integrals of the step   (stages, outside, error)
 //! book       entropies and targets from the integrals                    (booking, guard, thermostats)
 //! close      momenta, then energy: by heat, by motion, by shape          (closing)
 //! prove      what is left of all laws has to be rounding                 (proof)
 //! ```
 
+mod accounts;
 mod attempt;
 mod booking;
 mod closing;
@@ -32,19 +34,21 @@ mod tableau;
 mod thermostats;
 
 use core::mem;
+use core::ops::{Deref, DerefMut};
 
 use crate::element::conduction::Conduction;
 use crate::element::ends::Ends;
-use crate::element::group::{Elements, ExplicitGroup, Loose, Stage, Thermostat};
+use crate::element::group::{Elements, ExplicitGroup, Loose, Place};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::scene::loads::Loads;
 use crate::step::control::{LeastScales, LoadRounding};
+use accounts::Accounts;
 use components::Components;
-use memory::{Books, LoadSums, Scratch};
-use prescribed::Prescribed;
+use memory::{LoadSums, Momenta, Motion};
+use prescribed::{Prescribed, held};
 
 pub(crate) use demand::Demand;
 pub(crate) use memory::SavedExplicit;
@@ -57,29 +61,26 @@ pub(crate) use tableau::{REAL_LIMIT, load_rule, motion_rule};
 )]
 pub(crate) struct Explicit<const D: usize> {
     groups: Vec<Box<dyn ExplicitGroup<D>>>,
-    components: Components,
-    /// Whether each thermal slot has a path of heat or a dashpot.
-    produces: Vec<bool>,
+    accounts: Accounts,
+    /// Masses, then anchors.
+    places: Vec<Place<D>>,
     prescribed: Prescribed<D>,
     /// Whether forces are functions of time.
     has_functions: bool,
     /// The loads at the present stage, and at the start of the step.
     loads: StepLoads,
     start_loads: StepLoads,
-    /// Whether loads, moved anchors, thermostats or dashpots that lose heat act, so that integrals of the step change targets.
-    is_driven: bool,
     /// The number of places, entries of the stage vector, whose rates are kept: masses, and anchors where some are moved.
     kept_places: usize,
-    /// The present stage; between steps, the end of the last one, with its rates.
-    stage: Stage<D>,
     /// Work and impulses of the loads on each component since the start of the step; empty without loads.
     load_sums: Vec<LoadSums<D>>,
-    /// Targets and sums, now and before the step.
-    books: Books<D>,
-    old_books: Books<D>,
-    scratch: Scratch<D>,
-    /// Whether energy defects are closed by motion before heat.
-    is_motion_first: bool,
+    /// The targets of the momenta of each component, now and before the step.
+    momenta: Vec<Momenta<D>>,
+    old_momenta: Vec<Momenta<D>>,
+    /// The motion of each component.
+    motions: Vec<Motion<D>>,
+    /// The forces of the elements on places, where they are needed, N.
+    forces: Vec<[f64; D]>,
     /// Whether rates and targets belong to the state, now and before the last attempt.
     is_ready: bool,
     was_ready: bool,
@@ -117,57 +118,46 @@ pub(crate) struct Site<'a, const D: usize> {
 impl<const D: usize> Explicit<D> {
     /// For these groups, which know their entropies already.
     pub(crate) fn new(mut groups: Vec<Box<dyn ExplicitGroup<D>>>, site: Site<'_, D>) -> Self {
-        let mut components =
-            Components::new(site.masses, site.elements, site.layout, site.conduction);
+        let components = Components::new(site.masses, site.elements, site.layout, site.conduction);
         let place_of = components.place_of();
         for group in &mut groups {
             group.join((&components.of_element, site.layout.viscous), &place_of);
         }
-        let reservoirs = &site.conduction.reservoirs;
-        let prescribed = Prescribed::new(site.loads, site.layout, &components);
-        let mut thermostats = Vec::new();
-        for held in &prescribed.held {
-            thermostats.resize(site.layout.thermal, Thermostat::new(false));
-            thermostats[held.slot] = Thermostat::new(true);
-        }
-        for path in &mut components.paths {
-            for (stores, end) in path.stores.iter_mut().zip(path.ends) {
-                *stores &= !thermostats.get(end).is_some_and(|of| of.holds);
-            }
-        }
+        let prescribed = Prescribed::new(site.loads, &components);
+        let held = held(&site.loads.temperatures, site.layout);
         let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads, false);
         let counts = [site.masses.len(), site.layout.thermal];
         let rounding = LoadRounding::new(site.loads, loads.slots.clone(), counts);
         let moves = !prescribed.moved.is_empty();
         let has_loads = loads.has_total_force() || moves;
-        let masses = components.masses_of(site.masses);
-        let stage = Stage::new(&masses, site.layout, reservoirs.len(), thermostats);
-        let books = Books::new(&components);
+        let mut places = Vec::with_capacity(components.nodes.len());
+        for &node in &components.nodes {
+            places.push(Place::new(site.masses.get(node).unwrap_or(0.0)));
+        }
+        let count = components.all.len();
+        let momenta = vec![Momenta::none(); count];
         Self {
-            produces: produces(&components, site.layout),
-            load_sums: vec![LoadSums::none(); if has_loads { components.all.len() } else { 0 }],
-            old_books: books.clone(),
-            books,
-            scratch: Scratch::new(&components, site.layout, site.masses.len()),
-            is_driven: has_loads
-                || stage.has_thermostats
-                || components
-                    .dashpots
-                    .iter()
-                    .any(|dashpot| dashpot.slot.is_none()),
+            load_sums: vec![LoadSums::none(); if has_loads { count } else { 0 }],
+            old_momenta: momenta.clone(),
+            momenta,
+            motions: vec![Motion::none(); count],
+            forces: vec![[0.0; D]; places.len()],
             kept_places: if moves {
-                components.nodes.len()
+                places.len()
             } else {
                 components.masses
             },
-            stage,
+            places,
+            accounts: Accounts::new(
+                (components, held),
+                (site.layout, site.conduction, site.masses.len()),
+                has_loads,
+            ),
             groups,
-            components,
             prescribed,
             start_loads: loads.clone(),
             loads,
             has_functions: site.loads.have_forces_of_time(),
-            is_motion_first: false,
             is_ready: false,
             was_ready: false,
             has_left: false,
@@ -206,25 +196,27 @@ impl<const D: usize> Explicit<D> {
 
     /// Whether energy defects are closed by motion before heat.
     pub(crate) const fn is_motion_first(&self) -> bool {
-        self.is_motion_first
+        self.accounts.is_motion_first
     }
 
     /// Chooses whether motion or heat closes energy defects first.
     pub(crate) const fn set_motion_first(&mut self, is_motion_first: bool) {
-        self.is_motion_first = is_motion_first;
+        self.accounts.is_motion_first = is_motion_first;
     }
 }
 
-/// Whether each thermal slot has a path of heat or a dashpot.
-fn produces(components: &Components, layout: &Layout) -> Vec<bool> {
-    let mut produces = vec![false; layout.thermal];
-    let ends = components.paths.iter().flat_map(|path| path.ends);
-    let dashpots = components.dashpots.iter();
-    for slot in ends.chain(dashpots.filter_map(|dashpot| dashpot.slot)) {
-        // Reservoirs come after the thermal slots.
-        if let Some(produces) = produces.get_mut(slot) {
-            *produces = true;
-        }
+impl<const D: usize> Deref for Explicit<D> {
+    type Target = Accounts;
+
+    #[inline]
+    fn deref(&self) -> &Accounts {
+        &self.accounts
     }
-    produces
+}
+
+impl<const D: usize> DerefMut for Explicit<D> {
+    #[inline]
+    fn deref_mut(&mut self) -> &mut Accounts {
+        &mut self.accounts
+    }
 }

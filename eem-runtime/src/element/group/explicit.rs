@@ -18,6 +18,6 @@ mod thermostat;
 pub(super) mod view;
 
 pub(crate) use group::ExplicitElements;
-pub(crate) use stage::{Past, Place, Stage, Thermostat, first_reservoir};
+pub(crate) use stage::{Combination, Past, Place, Stage, Thermostat, first_reservoir};
 pub(crate) use temperature::is_met;
 pub(crate) use view::{Caloric, ClosingView, ComponentEnergy, UnkeptEntropy};

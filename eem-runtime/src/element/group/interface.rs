@@ -3,7 +3,7 @@
 use core::any::{Any, TypeId};
 use core::fmt::Debug;
 
-use super::explicit::stage::Stage;
+use super::explicit::stage::{Place, Stage};
 use super::explicit::view::ClosingView;
 #[cfg(feature = "gradients")]
 use super::point_step::{Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
@@ -239,10 +239,10 @@ pub(crate) trait ExplicitGroup<const D: usize>: Send + Sync {
     fn join(&mut self, elements: (&[u32], usize), place_of: &dyn Fn(u32, u32) -> u32);
 
     /// Adds the forces and writes the rates at a stage.
-    fn rates(&self, stage: &mut Stage<D>) -> Result<(), StateError>;
+    fn rates(&self, places: &mut [Place<D>], stage: &mut Stage) -> Result<(), StateError>;
 
     /// Adds a stage with a weight to the integrals of thermostats, after its rates have been written.
-    fn integrate_thermostats(&self, stage: &mut Stage<D>, is_start: bool);
+    fn integrate_thermostats(&self, places: &[Place<D>], stage: &mut Stage, is_start: bool);
 
     /// Finds temperatures and energies of the open components.
     fn close(&mut self, view: &mut ClosingView<'_, D>) -> Result<(), StateError>;
@@ -251,7 +251,7 @@ pub(crate) trait ExplicitGroup<const D: usize>: Send + Sync {
     fn pull(&self, components: &[bool], forces: &mut [[f64; D]], creep: &mut [[f64; 2]]);
 
     /// Writes the rates of the closed state, whose temperatures differ little from those of the last [`close`](Self::close).
-    fn finish(&self, stage: &mut Stage<D>) -> Result<(), StateError>;
+    fn finish(&self, places: &mut [Place<D>], stage: &mut Stage) -> Result<(), StateError>;
 }
 
 /// Elements of one model without a scheme, for any model.

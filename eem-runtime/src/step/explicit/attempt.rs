@@ -1,5 +1,6 @@
 //! One attempt at a step, which changes nothing until it is accepted.
 
+use super::accounts::Accounts;
 use super::demand::Demand;
 use super::error::Measure;
 use super::tableau::STAGES;
@@ -7,6 +8,23 @@ use super::{Explicit, ExplicitView};
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use crate::step::outcome::Attempt;
+
+impl Accounts {
+    /// Writes the closed internal variables.
+    #[inline]
+    fn store(&self, next: &mut State) {
+        for dashpot in 0..self.stage.temperatures {
+            next.viscous.set(dashpot, self.stage.inner[dashpot]);
+        }
+        for (slot, theta) in next.temperatures.iter_mut().enumerate() {
+            *theta = self.stage.theta(slot);
+        }
+        for held in &self.held {
+            let balance = &self.scratch.held[held.slot];
+            next.book_thermostat(balance.heat, balance.given);
+        }
+    }
+}
 
 impl<const D: usize> Explicit<D> {
     /// Writes the state after a step to `next`, from the state of the last accepted step or, after
@@ -41,6 +59,10 @@ impl<const D: usize> Explicit<D> {
         if self.is_driven {
             self.prescribed
                 .evaluate(view.loads, [start, h], view.state)?;
+            for held in &mut self.accounts.held {
+                let from = view.state.temperatures[held.slot];
+                held.evaluate(&view.loads.temperatures, [start, h], from)?;
+            }
         }
         let scales = self.approach(view, next)?;
         let measure = match &demand {
@@ -116,7 +138,7 @@ impl<const D: usize> Explicit<D> {
     /// Writes the closed state.
     #[inline]
     fn store(&mut self, next: &mut State) {
-        let masses = &self.stage.places[..self.components.masses];
+        let masses = &self.places[..self.components.masses];
         for (place, &node) in masses.iter().zip(&self.components.nodes) {
             next.positions.set_point(node, place.q());
             next.momenta.set_point(node, place.p());
@@ -125,15 +147,6 @@ impl<const D: usize> Explicit<D> {
             let end = &moved.positions[STAGES - 1];
             next.positions.set_point(moved.node.index, end);
         }
-        for dashpot in 0..self.stage.temperatures {
-            next.viscous.set(dashpot, self.stage.inner[dashpot]);
-        }
-        for (slot, theta) in next.temperatures.iter_mut().enumerate() {
-            *theta = self.stage.theta(slot);
-        }
-        for held in &self.prescribed.held {
-            let balance = &self.scratch.held[held.slot];
-            next.book_thermostat(balance.heat, balance.given);
-        }
+        self.accounts.store(next);
     }
 }

@@ -1,5 +1,6 @@
 //! Entropies and targets at the end of a step, from its integrals.
 
+use super::accounts::Accounts;
 use super::components::Support;
 use super::guard::{PathRates, guarded, mean_drop};
 use super::thermostats::shift_weights;
@@ -9,22 +10,7 @@ use crate::algebra::{add, difference, dot, scaled};
 use crate::element::state::State;
 use eem_material::number::scalar::Scalar;
 
-impl<const D: usize> Explicit<D> {
-    /// Entropies, books and targets at the end of the step, before it is closed.
-    #[inline]
-    pub(super) fn book(&mut self, view: &ExplicitView<'_, D>, next: &mut State) {
-        next.copy_books(view.state);
-        next.time.add(view.step);
-        next.entropies.copy_from(&view.state.entropies);
-        self.scratch.clear(view.step);
-        self.book_paths(view.step, next);
-        self.book_dashpots(view.step, next);
-        if self.is_driven {
-            self.book_loads(view.step, next);
-            self.book_course(view, next);
-        }
-    }
-
+impl Accounts {
     /// Moves the exchanged entropy of each path from its second end to its first one, and adds its production to the
     /// second.
     #[inline]
@@ -126,18 +112,55 @@ impl<const D: usize> Explicit<D> {
         }
     }
 
+    /// Splits the productions of paths between their ends, by the heat capacities of the closing; if one end is a
+    /// reservoir or has a thermostat, the other end receives all of it.
+    #[inline]
+    pub(super) fn share_productions(&mut self) {
+        let scratch = &mut self.scratch;
+        for path in &self.components.paths {
+            let capacity = |at: usize| {
+                let slot = path.stores[at].then_some(path.ends[at]);
+                slot.map_or(0.0, |slot| scratch.slots[slot].capacity)
+            };
+            let [a, b] = [capacity(0), capacity(1)];
+            for (end, capacity) in path.ends.into_iter().zip([a, b]) {
+                if a + b > 0.0 && capacity > 0.0 {
+                    scratch.slots[end].produced += path.production * (capacity / (a + b));
+                }
+            }
+        }
+    }
+}
+
+impl<const D: usize> Explicit<D> {
+    /// Entropies, books and targets at the end of the step, before it is closed.
+    #[inline]
+    pub(super) fn book(&mut self, view: &ExplicitView<'_, D>, next: &mut State) {
+        next.copy_books(view.state);
+        next.time.add(view.step);
+        next.entropies.copy_from(&view.state.entropies);
+        self.scratch.clear(view.step);
+        self.book_paths(view.step, next);
+        self.book_dashpots(view.step, next);
+        if self.is_driven {
+            self.book_loads(view.step, next);
+            self.book_course(view.step, view.state, next);
+        }
+    }
+
     fn book_loads(&mut self, h: f64, next: &mut State) {
         for anchor in self.components.masses..self.kept_places {
-            let place = &self.stage.places[anchor];
+            let place = &self.places[anchor];
             let way = difference(place.q(), &place.past.start[0]);
-            let sums = &mut self.load_sums[self.components.of_place[anchor]];
+            let sums = &mut self.load_sums[self.accounts.components.of_place[anchor]];
             sums.work -= dot(&place.past.rates[0][1], &way) / h;
         }
-        let progress = self.scratch.progress.iter_mut();
-        let targets = self.books.targets.iter_mut().zip(progress);
-        let driven = targets.zip(&self.load_sums).zip(&self.components.all);
-        for (((target, progress), sums), component) in driven {
-            let masses = &self.stage.places[component.masses.clone()];
+        let accounts = &mut self.accounts;
+        let targets = accounts.books.targets.iter_mut().zip(&mut self.momenta);
+        let targets = targets.zip(&mut accounts.scratch.progress);
+        let driven = targets.zip(&self.load_sums).zip(&accounts.components.all);
+        for ((((target, momenta), progress), sums), component) in driven {
+            let masses = &self.places[component.masses.clone()];
             if masses.is_empty() {
                 progress.carried = h * sums.effort;
             }
@@ -158,7 +181,7 @@ impl<const D: usize> Explicit<D> {
             target.energy.add(work);
             next.work.add(work);
             let mut push = |force: &[f64; D]| {
-                for (linear, &force) in target.linear.iter_mut().zip(force) {
+                for (linear, &force) in momenta.linear.iter_mut().zip(force) {
                     linear.add(h * force);
                 }
             };
@@ -167,7 +190,7 @@ impl<const D: usize> Explicit<D> {
             }
             push(&sums.impulse);
             for plane in planes::<D>() {
-                target.angular.at_mut(plane).add(h * sums.torque.at(plane));
+                momenta.angular.at_mut(plane).add(h * sums.torque.at(plane));
             }
         }
     }
@@ -177,31 +200,12 @@ impl<const D: usize> Explicit<D> {
         if !self.loads.has_force() {
             return;
         }
-        for place in &self.stage.places[..self.components.masses] {
+        for place in &self.places[..self.components.masses] {
             let way = difference(place.q(), &place.past.start[0]);
             for (axis, way) in way.iter().enumerate() {
                 let load = place.force[axis] - place.mass * view.loads.gravity[axis];
                 if load != 0.0 {
                     next.work.add(load * way);
-                }
-            }
-        }
-    }
-
-    /// Splits the productions of paths between their ends, by the heat capacities of the closing; if one end is a
-    /// reservoir or has a thermostat, the other end receives all of it.
-    #[inline]
-    pub(super) fn share_productions(&mut self) {
-        let scratch = &mut self.scratch;
-        for path in &self.components.paths {
-            let capacity = |at: usize| {
-                let slot = path.stores[at].then_some(path.ends[at]);
-                slot.map_or(0.0, |slot| scratch.slots[slot].capacity)
-            };
-            let [a, b] = [capacity(0), capacity(1)];
-            for (end, capacity) in path.ends.into_iter().zip([a, b]) {
-                if a + b > 0.0 && capacity > 0.0 {
-                    scratch.slots[end].produced += path.production * (capacity / (a + b));
                 }
             }
         }

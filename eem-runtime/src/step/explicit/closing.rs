@@ -70,7 +70,8 @@ impl<const D: usize> Explicit<D> {
                 if !self.scratch.open[index] {
                     continue;
                 }
-                let status = self.balance(index, demand, next);
+                let of = (index, &self.motions[index].energy);
+                let status = self.accounts.balance(of, demand, next);
                 self.scratch.open[index] = status == Status::Changed;
                 self.scratch.needs_forces[index] = status == Status::NeedsForces;
             }
@@ -104,15 +105,16 @@ impl<const D: usize> Explicit<D> {
         explicit: &ExplicitView<'_, D>,
         next: &mut State,
     ) -> Result<(), StateError> {
-        let scratch = &mut self.scratch;
+        let scratch = &mut self.accounts.scratch;
         for (energy, &is_open) in scratch.energies.iter_mut().zip(&scratch.open) {
             if is_open {
-                *energy = ComponentEnergy::none();
+                *energy = ComponentEnergy::default();
             }
         }
         let mut view = ClosingView {
             open: &scratch.open,
-            stage: &mut self.stage,
+            places: &self.places,
+            stage: &mut self.accounts.stage,
             slots: &mut scratch.slots,
             unkept: &mut scratch.unkept,
             next,
@@ -123,23 +125,19 @@ impl<const D: usize> Explicit<D> {
             group.close(&mut view)?;
         }
         if self.stage.has_thermostats {
-            self.book_thermostats(explicit, next);
+            self.book_thermostats(explicit.state, next);
         }
         Ok(())
     }
 
     /// Finds the constant forces and those of elements in the components that need them: the negative gradient of the energy.
     fn find_forces(&mut self) {
-        let scratch = &mut self.scratch;
-        for (force, place) in scratch.forces.iter_mut().zip(&self.stage.places) {
+        let scratch = &mut self.accounts.scratch;
+        for (force, place) in self.forces.iter_mut().zip(&self.places) {
             *force = place.force;
         }
         for group in &self.groups {
-            group.pull(
-                &scratch.needs_forces,
-                &mut scratch.forces,
-                &mut scratch.creep,
-            );
+            group.pull(&scratch.needs_forces, &mut self.forces, &mut scratch.creep);
         }
     }
 }

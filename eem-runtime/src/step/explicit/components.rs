@@ -196,12 +196,6 @@ impl Components {
         move |component, node| places[&(component as usize, node as usize)]
     }
 
-    /// The mass at each place, zero for anchors, kg.
-    pub(super) fn masses_of(&self, masses: &Masses) -> Vec<f64> {
-        let nodes = self.nodes.iter();
-        nodes.map(|&node| masses.get(node).unwrap_or(0.0)).collect()
-    }
-
     /// The component of a thermal slot.
     pub(super) fn of_slot(&self, slot: usize) -> usize {
         self.of_element[self.elements[slot]] as usize

@@ -1,18 +1,81 @@
 //! The estimate of the error of a step (Hairer, Nørsett & Wanner, section II.10).
 
+use super::accounts::Accounts;
 use super::demand::Scales;
 use super::stages::{errors, unclosed};
 use super::{Explicit, ExplicitView};
 use crate::algebra::{difference, dot, hypot, length, norm};
 use crate::element::group::Place;
 use crate::element::state::State;
-use crate::step::control::{ROUNDINGS, Step, Tolerance, Unknown, UnknownError, see_worst};
+use crate::step::control::{
+    LoadRounding, ROUNDINGS, Step, Tolerance, Unknown, UnknownError, see_worst,
+};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::Scalar;
 
 /// How often heat may correct the energy in a closing, which has ten iterations.
 const MOST_HEATINGS: f64 = 10.0;
+
+/// The reciprocal of a scale; zero where the scale is, as nothing moves there.
+#[inline]
+fn per(scale: f64) -> f64 {
+    if scale > 0.0 { scale.recip() } else { 0.0 }
+}
+
+/// The reciprocal of a scale that is no smaller than the rounding, and the rounding.
+#[inline]
+fn rounded(per_scale: f64, rounding: f64) -> [f64; 2] {
+    let is_below = per_scale * rounding > 1.0;
+    let per_scale = if is_below {
+        rounding.recip()
+    } else {
+        per_scale
+    };
+    [per_scale, rounding]
+}
+
+/// Adds the squares of errors per time in units of their scales in a step of the size h.
+#[inline]
+fn squares(h: f64, sums: &mut [f64; 2]) -> impl FnMut(Unknown, [f64; 2], [f64; 2]) {
+    move |_, errors, [per_scale, _]| {
+        for (sum, error) in sums.iter_mut().zip(errors) {
+            let error = h * error * per_scale;
+            *sum += error * error;
+        }
+    }
+}
+
+impl Accounts {
+    /// The same as [`Explicit::each_error`] for the internal variables, given the scale and the rounding of stretches.
+    #[inline]
+    fn each_error<const ROUNDED: bool>(
+        &self,
+        (tolerance, stretch): (&Tolerance, [f64; 2]),
+        rounding: &LoadRounding,
+        see: &mut (impl FnMut(Unknown, [f64; 2], [f64; 2]) + ?Sized),
+    ) {
+        let first = self.stage.temperatures;
+        for (pair, past) in self.stage.inner_past.iter().enumerate() {
+            let [fifth, third] = errors(past);
+            for at in 0..2 {
+                let index = 2 * pair + at;
+                let (unknown, per_scale) = if index < first {
+                    (Unknown::Viscous(index), stretch)
+                } else {
+                    let slot = index - first;
+                    let theta = past.start[at][0];
+                    let mut scale = [per(tolerance.relative * theta + tolerance.temperature), 0.0];
+                    if ROUNDED {
+                        scale = rounded(scale[0], rounding.temperature(slot));
+                    }
+                    (Unknown::Temperature(slot), scale)
+                };
+                see(unknown, [fifth[at][0], third[at][0]], per_scale);
+            }
+        }
+    }
+}
 
 impl<const D: usize> Explicit<D> {
     /// Goes to the end of a step before it is closed; returns the magnitudes there.
@@ -33,7 +96,7 @@ impl<const D: usize> Explicit<D> {
             let value = time;
             return Err(StepFailure::Time { value });
         }
-        let masses = &self.stage.places[..self.components.masses];
+        let masses = &self.places[..self.components.masses];
         let mut squares = [0.0; 3];
         for place in masses {
             let parts = [&place.past.start[0], place.q(), place.p()];
@@ -61,7 +124,7 @@ impl<const D: usize> Explicit<D> {
 
     #[cold]
     fn expect_finite(&self) -> Result<(), StepFailure> {
-        let masses = self.stage.places[..self.components.masses].iter();
+        let masses = self.places[..self.components.masses].iter();
         for (place, &node) in masses.zip(&self.components.nodes) {
             for (at, &value) in place.now.as_flattened().iter().enumerate() {
                 if !value.is_finite() {
@@ -89,12 +152,7 @@ impl<const D: usize> Explicit<D> {
     pub(super) fn estimate(&mut self, by: &Measure<'_, D>) -> f64 {
         let mut sums = [0.0; 2];
         let h = by.view.step;
-        self.each_error::<false>(by, &mut |_, errors: [f64; 2], [per_scale, _]: [f64; 2]| {
-            for (sum, error) in sums.iter_mut().zip(errors) {
-                let error = h * error * per_scale;
-                *sum += error * error;
-            }
-        });
+        self.each_error::<false>(by, &mut squares(h, &mut sums));
         let error = estimate_of(sums);
         if !Scheme::EemExplicit.accuracy().holds_back(error) {
             return error;
@@ -124,7 +182,7 @@ impl<const D: usize> Explicit<D> {
         };
         self.each_error::<true>(by, &mut see as See<'_>);
         let beyond = Scalar::maximum(estimate_of(sums), HIDDEN);
-        let masses = &self.stage.places[..self.components.masses];
+        let masses = &self.places[..self.components.masses];
         for (place, &node) in masses.iter().zip(&self.components.nodes) {
             let [position, momentum] = &place.past.start;
             let positions = [&position[..], place.q()];
@@ -226,7 +284,7 @@ impl<const D: usize> Explicit<D> {
         let (view, tolerance) = (by.view, by.tolerance);
         let [position, stretch] = [by.position(), by.stretch()];
         for at in self.components.all[index].masses.clone() {
-            let place = &self.stage.places[at];
+            let place = &self.places[at];
             let node = self.components.nodes[at];
             let rounding = self.rounding_of(view, place, node);
             let scale = view.least.at(node).scale(by.scales.momentum, by.step());
@@ -261,22 +319,10 @@ impl<const D: usize> Explicit<D> {
         by: &Measure<'_, D>,
         see: &mut (impl FnMut(Unknown, [f64; 2], [f64; 2]) + ?Sized),
     ) {
-        // Where the scale is zero nothing moves.
-        let per = |scale: f64| if scale > 0.0 { scale.recip() } else { 0.0 };
-        // No scale is below the rounding.
-        let rounded = |per_scale: f64, rounding: f64| {
-            let is_below = per_scale * rounding > 1.0;
-            let per_scale = if is_below {
-                rounding.recip()
-            } else {
-                per_scale
-            };
-            [per_scale, rounding]
-        };
         let Measure {
             view, tolerance, ..
         } = *by;
-        let masses = &self.stage.places[..self.components.masses];
+        let masses = &self.places[..self.components.masses];
         let least = view.least;
         let (all, step) = (by.scales.momentum, by.step());
         let momentum = |scale: f64| per(tolerance.relative * scale + tolerance.momentum);
@@ -312,24 +358,9 @@ impl<const D: usize> Explicit<D> {
                 stretch = rounded(stretch[0], rounding_of_stretch(by.farthest()));
             }
         }
-        for (pair, past) in self.stage.inner_past.iter().enumerate() {
-            let [fifth, third] = errors(past);
-            for at in 0..2 {
-                let index = 2 * pair + at;
-                let (unknown, per_scale) = if index < first {
-                    (Unknown::Viscous(index), stretch)
-                } else {
-                    let slot = index - first;
-                    let theta = past.start[at][0];
-                    let mut scale = [per(tolerance.relative * theta + tolerance.temperature), 0.0];
-                    if ROUNDED {
-                        scale = rounded(scale[0], self.rounding.temperature(slot));
-                    }
-                    (Unknown::Temperature(slot), scale)
-                };
-                see(unknown, [fifth[at][0], third[at][0]], per_scale);
-            }
-        }
+        let scales = (tolerance, stretch);
+        self.accounts
+            .each_error::<ROUNDED>(scales, &self.rounding, see);
     }
 
     /// The rounding of the impulse on a mass, N s.

@@ -26,24 +26,29 @@ pub(super) struct LoadSums<const D: usize> {
     pub(super) moment: f64,
 }
 
-/// The targets of energy and momenta of a component, to twice the precision.
+/// The target of the energy of a component, to twice the precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Target<const D: usize> {
+pub(super) struct Target {
     /// E, with the heat that reservoirs have received and that dashpots have lost, J.
     pub(super) energy: Sum,
-    /// L, kg m/s.
-    pub(super) linear: [Sum; D],
-    /// J about the anchor, or about the centre of mass where there is none, kg m²/s.
-    pub(super) angular: Bivector<Sum, D>,
     /// Heat of dashpots in elements without temperature, J.
     pub(super) lost: Sum,
 }
 
+/// The targets of the momenta of a component, to twice the precision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Momenta<const D: usize> {
+    /// L, kg m/s.
+    pub(super) linear: [Sum; D],
+    /// J about the anchor, or about the centre of mass where there is none, kg m²/s.
+    pub(super) angular: Bivector<Sum, D>,
+}
+
 /// Values accumulated over the steps.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Books<const D: usize> {
+pub(super) struct Books {
     /// Per component.
-    pub(super) targets: Vec<Target<D>>,
+    pub(super) targets: Vec<Target>,
     /// The entropy that each reservoir has received from each component, J/K.
     pub(super) shares: Vec<Sum>,
     /// The largest |p|₂ of all states so far, kg m/s.
@@ -55,22 +60,26 @@ pub(super) struct Books<const D: usize> {
     pub(super) terms: Option<[f64; 2]>,
 }
 
-impl<const D: usize> Target<D> {
+impl Target {
+    /// Zero.
+    pub(super) fn none() -> Self {
+        let [energy, lost] = [Sum::new(0.0); 2];
+        Self { energy, lost }
+    }
+}
+
+impl<const D: usize> Momenta<D> {
     /// Zero.
     pub(super) fn none() -> Self {
         let zero = Sum::new(0.0);
         Self {
-            energy: zero,
             linear: [zero; D],
             angular: Bivector::filled(zero),
-            lost: zero,
         }
     }
 
-    /// Calls a function for each of its sums, in the order in which they are saved.
+    /// Calls a function for each of its sums.
     pub(super) fn each_mut(&mut self, visit: &mut dyn FnMut(&mut Sum)) {
-        visit(&mut self.energy);
-        visit(&mut self.lost);
         for linear in &mut self.linear {
             visit(linear);
         }
@@ -80,7 +89,7 @@ impl<const D: usize> Target<D> {
     }
 }
 
-impl<const D: usize> Books<D> {
+impl Books {
     pub(super) fn new(components: &Components) -> Self {
         Self {
             targets: vec![Target::none(); components.all.len()],
@@ -151,6 +160,15 @@ pub(crate) struct SavedExplicit {
 }
 
 impl SavedExplicit {
+    /// Sets all numbers to zero.
+    pub(super) fn clear(&mut self) {
+        self.targets.fill(Sum::new(0.0));
+        self.shares.fill(Sum::new(0.0));
+        (self.largest_momentum, self.residue) = (0.0, 0.0);
+        self.rates.fill(0.0);
+        self.loads.fill(0.0);
+    }
+
     /// All sums with their names.
     pub(crate) fn sums(&self) -> [(&'static str, &[Sum]); 2] {
         [
@@ -226,8 +244,14 @@ pub(super) struct Motion<const D: usize> {
     /// `Σ |p|` and `Σ |q||p|` by sums of magnitudes, with coordinates q or arms about the origin, whichever are larger:
     /// positions are rounded to ε of their coordinates.
     pub(super) terms: [f64; 2],
+    pub(super) energy: MotionEnergy,
+}
+
+/// The part of the energy of a component that its masses have.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct MotionEnergy {
     /// Kinetic energy and that of constant forces, `−F·q`, and the magnitude of its terms, J.
-    pub(super) energy: Total,
+    pub(super) value: Total,
     pub(super) magnitude: f64,
     pub(super) kinetic: f64,
 }
@@ -255,12 +279,11 @@ pub(super) struct RowSums {
 
 /// Working memory of the closing of a step.
 #[derive(Clone, Debug)]
-pub(super) struct Scratch<const D: usize> {
+pub(super) struct Scratch {
     /// Per component.
     pub(super) progress: Vec<Progress>,
     /// The terms, in J, of which ε is the rounding of a product that is no normal number: of two momenta, or of a power, over the step.
     pub(super) subnormal: f64,
-    pub(super) motions: Vec<Motion<D>>,
     pub(super) energies: Vec<ComponentEnergy>,
     /// Whether a component has to be evaluated, and whether its forces are needed.
     pub(super) open: Vec<bool>,
@@ -271,8 +294,7 @@ pub(super) struct Scratch<const D: usize> {
     pub(super) unkept: Option<UnkeptEntropy>,
     /// Per thermal slot.
     pub(super) held: Vec<HeldBalance>,
-    /// The forces of the elements on places, `γ̇` and `g γ̇`, where they are needed, N, m/s and W.
-    pub(super) forces: Vec<[f64; D]>,
+    /// `γ̇` and `g γ̇` of dashpots where they are needed, m/s and W.
     pub(super) creep: Vec<[f64; 2]>,
     /// The smallest production of paths of heat between thermostats and reservoirs; `f64::MAX` without any, J/K.
     pub(super) least: f64,
@@ -301,9 +323,7 @@ impl<const D: usize> Motion<D> {
             linear: [0.0; D],
             angular: Bivector::zero(),
             terms: [0.0; 2],
-            energy: Total::default(),
-            magnitude: 0.0,
-            kinetic: 0.0,
+            energy: MotionEnergy::default(),
         }
     }
 
@@ -331,34 +351,33 @@ impl<const D: usize> Motion<D> {
         self.add_terms(place, arm);
         let (q, p) = (place.q(), place.p());
         let kinetic = 0.5 * dot(p, p) * place.per_mass();
-        self.energy.add(kinetic);
-        self.kinetic += kinetic;
-        self.magnitude += kinetic;
+        let energy = &mut self.energy;
+        energy.value.add(kinetic);
+        energy.kinetic += kinetic;
+        energy.magnitude += kinetic;
         for (&force, &q) in place.force.iter().zip(q) {
             if force != 0.0 {
                 let potential = -force * q;
-                self.energy.add(potential);
-                self.magnitude += potential.abs();
+                energy.value.add(potential);
+                energy.magnitude += potential.abs();
             }
         }
     }
 }
 
-impl<const D: usize> Scratch<D> {
+impl Scratch {
     /// A workspace for a scene with this many nodes.
     pub(super) fn new(components: &Components, layout: &Layout, nodes: usize) -> Self {
         let (count, thermal) = (components.all.len(), layout.thermal);
         Self {
             progress: vec![Progress::none(); count],
             subnormal: f64::MIN_POSITIVE,
-            motions: vec![Motion::none(); count],
-            energies: vec![ComponentEnergy::none(); count],
+            energies: vec![ComponentEnergy::default(); count],
             open: vec![false; count],
             needs_forces: vec![false; count],
             slots: vec![Caloric::default(); thermal],
             unkept: None,
             held: vec![HeldBalance::default(); thermal],
-            forces: vec![[0.0; D]; components.nodes.len()],
             creep: vec![[0.0; 2]; layout.viscous],
             least: f64::MAX,
             stability: RowSums {

@@ -12,12 +12,12 @@ use crate::element::loads::StepLoads;
 impl<const D: usize> Explicit<D> {
     /// Sets moved anchors and thermostats to their values at a stage.
     pub(super) fn move_to(&mut self, stage: usize) {
-        for held in &self.prescribed.held {
-            *self.stage.theta_mut(held.slot) = held.temperatures[stage];
+        for held in &self.accounts.held {
+            *self.accounts.stage.theta_mut(held.slot) = held.temperatures[stage];
         }
         for moved in &self.prescribed.moved {
             for &place in &moved.places {
-                let place = &mut self.stage.places[place];
+                let place = &mut self.places[place];
                 place.now[0] = moved.positions[stage];
                 place.rates = [moved.velocities[stage], [0.0; D]];
             }
@@ -30,7 +30,7 @@ impl<const D: usize> Explicit<D> {
         self.load_sums.fill(LoadSums::none());
         self.stage.weight = WEIGHTS[0];
         self.begin_thermostats();
-        for place in &mut self.stage.places[self.components.masses..self.kept_places] {
+        for place in &mut self.places[self.accounts.components.masses..self.kept_places] {
             place.past.start[0] = place.now[0];
             place.past.rates[0] = place.rates;
         }
@@ -45,14 +45,15 @@ impl<const D: usize> Explicit<D> {
     pub(super) fn integrate_outside(&mut self, at: usize) {
         let weight = self.stage.weight;
         for index in 0..self.load_sums.len() {
-            let component = &self.components.all[index];
+            let components = &self.accounts.components;
+            let component = &components.all[index];
             let sums = &mut self.load_sums[index];
-            let origin = Origin::of(&self.stage.places, component);
+            let origin = Origin::of(&self.places, component);
             let mut momentum = [0.0; D];
             for at in component.masses.clone() {
-                let place = &self.stage.places[at];
+                let place = &self.places[at];
                 let arm = origin.arm(place.q());
-                let node = self.components.nodes[at];
+                let node = components.nodes[at];
                 let load = self.loads.total_force(node);
                 let varying = difference(&load, &place.force);
                 sums.work += weight * dot(&varying, place.velocity());
@@ -72,7 +73,7 @@ impl<const D: usize> Explicit<D> {
             }
             if let Support::Anchor(anchor) = component.support {
                 // The angular momentum is about the anchor, wherever it goes.
-                let velocity = self.stage.places[anchor].velocity();
+                let velocity = self.places[anchor].velocity();
                 let change = Bivector::wedge(velocity, &momentum);
                 sums.torque.add(-weight, &change);
                 if D > 2 {
@@ -81,8 +82,8 @@ impl<const D: usize> Explicit<D> {
             }
         }
         for anchor in self.components.masses..self.kept_places {
-            let sums = &mut self.load_sums[self.components.of_place[anchor]];
-            let place = &self.stage.places[anchor];
+            let sums = &mut self.load_sums[self.accounts.components.of_place[anchor]];
+            let place = &self.places[anchor];
             let [velocity, reaction] = &place.rates;
             let change = difference(reaction, &place.past.rates[0][1]);
             sums.work -= weight * dot(&change, velocity);

@@ -84,17 +84,29 @@ pub(super) struct Held {
     pub(super) temperatures: [f64; STAGES],
 }
 
-/// All that is prescribed in a scene.
+/// The elements with thermostats.
+pub(super) fn held(courses: &[(Element, TemperatureCourse)], layout: &Layout) -> Vec<Held> {
+    let slots = courses.iter();
+    let all = last_of_each(slots.map(|(of, _)| layout.elements[of.index()].thermal));
+    let all = all.map(|(temperature, slot)| Held {
+        element: courses[temperature].0,
+        slot,
+        temperature,
+        temperatures: [1.0; STAGES],
+    });
+    all.collect()
+}
+
+/// All anchors that are moved in a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Prescribed<const D: usize> {
     /// `None` if no anchor is moved.
     interpolation: Option<Interpolation>,
     pub(super) moved: Vec<Moved<D>>,
-    pub(super) held: Vec<Held>,
 }
 
 impl<const D: usize> Prescribed<D> {
-    pub(super) fn new(loads: &Loads<D>, layout: &Layout, components: &Components) -> Self {
+    pub(super) fn new(loads: &Loads<D>, components: &Components) -> Self {
         let mut places: BTreeMap<_, Vec<_>> = BTreeMap::new();
         let anchors = components.masses..components.nodes.len();
         for place in anchors.filter(|_| !loads.motions.is_empty()) {
@@ -113,22 +125,13 @@ impl<const D: usize> Prescribed<D> {
             velocities: [[0.0; D]; STAGES],
         });
         let moved: Vec<_> = moved.collect();
-        let slots = loads.temperatures.iter();
-        let held = last_of_each(slots.map(|(of, _)| layout.elements[of.index()].thermal));
-        let held = held.map(|(temperature, slot)| Held {
-            element: loads.temperatures[temperature].0,
-            slot,
-            temperature,
-            temperatures: [1.0; STAGES],
-        });
         Self {
             interpolation: (!moved.is_empty()).then(Interpolation::new),
             moved,
-            held: held.collect(),
         }
     }
 
-    /// Evaluates all motions and temperatures at the stages of a step of size `step` that begins at `time`.
+    /// Evaluates all motions at the stages of a step of size `step` that begins at `time`.
     pub(super) fn evaluate(
         &mut self,
         loads: &Loads<D>,
@@ -140,10 +143,6 @@ impl<const D: usize> Prescribed<D> {
                 let from = points::<D>(old.positions.values())[moved.node.index];
                 moved.evaluate(interpolation, loads, ([time, step], &from))?;
             }
-        }
-        for held in &mut self.held {
-            let (_, course) = &loads.temperatures[held.temperature];
-            held.evaluate(course, [time, step], old.temperatures[held.slot])?;
         }
         Ok(())
     }
@@ -164,12 +163,14 @@ fn last_of_each(
 }
 
 impl Held {
-    fn evaluate(
+    /// Evaluates its temperature at the stages of a step of size `step` that begins at `time`, from the old temperature.
+    pub(super) fn evaluate(
         &mut self,
-        course: &TemperatureCourse,
+        courses: &[(Element, TemperatureCourse)],
         [time, step]: [f64; 2],
         from: f64,
     ) -> Result<(), StepFailure> {
+        let (_, course) = &courses[self.temperature];
         for (theta, &share) in self.temperatures.iter_mut().zip(&TIMES) {
             let at = time + share * step;
             let value = course.at(at, from, share);

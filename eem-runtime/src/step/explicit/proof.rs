@@ -1,6 +1,9 @@
 //! Proof of a step: the defects of all laws in the closed state must be rounding.
 
+use core::mem;
+
 use super::Explicit;
+use super::accounts::Accounts;
 use super::closing::FROZEN;
 use super::components::Support;
 use crate::algebra::bivector::planes;
@@ -17,45 +20,20 @@ use eem_material::number::scalar::Scalar;
 /// Roundings of the magnitude of the energy that a step may be off by, as in the certificate.
 const ROUNDINGS: f64 = 64.0;
 
-impl<const D: usize> Explicit<D> {
-    /// An error unless all defects, from the energies of the state, are rounding.
-    #[inline]
-    pub(super) fn prove(
+impl Accounts {
+    /// Keeps the sums of a step, and proves that no entropy is lost: the residue of the energy, the part of it that is kept, the
+    /// contribution to the bound, and the terms of the energies; the last two at the start of the step, too.
+    fn outcome(
         &mut self,
         correction: f64,
-        (start, time): (&State, f64),
+        ([residue, kept, counted, own], [old, mut terms]): ([f64; 4], [f64; 2]),
+        (is_restart, time): (bool, f64),
     ) -> Result<Outcome, StepFailure> {
-        if let Some(UnkeptEntropy { element, sizes }) = self.scratch.unkept {
-            return Err(Law::KeptEntropy.not_kept(sizes, Some(element), time));
-        }
         let rounding = ROUNDINGS * f64::EPSILON;
-        let known = self.books.terms;
-        let [old, mut terms] = known.unwrap_or_else(|| self.terms_at_start(start));
-        let [mut residue, mut counted, mut own, mut forgiven] = [0.0; 4];
-        for index in 0..self.components.all.len() {
-            let present = self.scratch.progress[index].present;
-            let [defect, magnitude] = present.unwrap_or_else(|| self.defect_of(index));
-            let progress = &self.scratch.progress[index];
-            let magnitude = magnitude + FROZEN / ROUNDINGS * progress.granularity;
-            // What the bound of the step counts with the energies of both ends.
-            let values = FROZEN / ROUNDINGS * progress.values;
-            let bound = rounding * (magnitude + values);
-            expect(Law::Energy, [progress.debt - defect, bound], time)?;
-            self.prove_momenta(index, time)?;
-            residue -= defect;
-            if self.is_driven && self.scratch.progress[index].is_forgiven {
-                // The rounding of this step is not that of later ones.
-                self.books.targets[index].energy.add(-defect);
-                forgiven += defect;
-            }
-            let energy = &self.scratch.energies[index];
-            counted += magnitude + energy.excess;
-            own += self.scratch.motions[index].kinetic + energy.terms;
-        }
         terms += own;
         let mut bound = rounding * (old + counted);
-        let old_residue = core::mem::replace(&mut self.books.residue, residue + forgiven);
-        if known.is_none() {
+        let old_residue = mem::replace(&mut self.books.residue, kept);
+        if is_restart {
             // After a restart the terms are not those of the step that left the old residue.
             bound += old_residue.abs();
         }
@@ -84,6 +62,48 @@ impl<const D: usize> Explicit<D> {
             correction,
         })
     }
+}
+
+impl<const D: usize> Explicit<D> {
+    /// An error unless all defects, from the energies of the state, are rounding.
+    #[inline]
+    pub(super) fn prove(
+        &mut self,
+        correction: f64,
+        (start, time): (&State, f64),
+    ) -> Result<Outcome, StepFailure> {
+        if let Some(UnkeptEntropy { element, sizes }) = self.scratch.unkept {
+            return Err(Law::KeptEntropy.not_kept(sizes, Some(element), time));
+        }
+        let rounding = ROUNDINGS * f64::EPSILON;
+        let known = self.books.terms;
+        let [old, terms] = known.unwrap_or_else(|| self.terms_at_start(start));
+        let [mut residue, mut counted, mut own, mut forgiven] = [0.0; 4];
+        for index in 0..self.components.all.len() {
+            let present = self.scratch.progress[index].present;
+            let [defect, magnitude] =
+                present.unwrap_or_else(|| self.defect_of(index, &self.motions[index].energy));
+            let progress = &self.scratch.progress[index];
+            let magnitude = magnitude + FROZEN / ROUNDINGS * progress.granularity;
+            // What the bound of the step counts with the energies of both ends.
+            let values = FROZEN / ROUNDINGS * progress.values;
+            let bound = rounding * (magnitude + values);
+            expect(Law::Energy, [progress.debt - defect, bound], time)?;
+            self.prove_momenta(index, time)?;
+            residue -= defect;
+            if self.is_driven && self.scratch.progress[index].is_forgiven {
+                // The rounding of this step is not that of later ones.
+                self.books.targets[index].energy.add(-defect);
+                forgiven += defect;
+            }
+            let energy = &self.scratch.energies[index];
+            counted += magnitude + energy.excess;
+            own += self.motions[index].energy.kinetic + energy.terms;
+        }
+        let sums = [residue, residue + forgiven, counted, own];
+        self.accounts
+            .outcome(correction, (sums, [old, terms]), (known.is_none(), time))
+    }
 
     /// An error unless the conserved momenta of a component are their targets, in all planes.
     #[inline]
@@ -95,7 +115,7 @@ impl<const D: usize> Explicit<D> {
         let rounding = ROUNDINGS * f64::EPSILON;
         let (linear, angular) = self.missing_momenta(index);
         // Sums of magnitudes are at most √D times a length.
-        let [momenta, moments] = self.scratch.motions[index].terms;
+        let [momenta, moments] = self.motions[index].terms;
         let dimension = (0..D).fold(0.0, |sum, _| sum + 1.0);
         if support == Support::Free {
             let bound = rounding * (momenta / dimension.sqrt());
@@ -116,7 +136,7 @@ impl<const D: usize> Explicit<D> {
         if left > own || (D > 2 && is_half_of_digits()) {
             for plane in planes::<D>() {
                 let left = angular.at(plane);
-                self.books.targets[index].angular.at_mut(plane).add(-left);
+                self.momenta[index].angular.at_mut(plane).add(-left);
             }
         }
         Ok(())

@@ -1,45 +1,53 @@
 //! Checkpoints of an explicit scheme.
 
 use super::Explicit;
+use super::accounts::Accounts;
 use super::memory::SavedExplicit;
 use crate::element::state::State;
+use eem_material::number::compensated::Sum;
 
 impl<const D: usize> Explicit<D> {
     /// Everything besides the state that the next step depends on.
     pub(crate) fn save(&self, state: &State) -> SavedExplicit {
-        let mut books = self.books.clone();
-        let (mut rates, mut loads) = (Vec::new(), Vec::new());
-        for [start, now] in self.stage.rates(self.kept_places) {
-            rates.push(if self.has_left { start } else { now });
-        }
-        let own = if self.has_left {
-            // After an attempt that was not accepted.
-            books.copy_from(&self.old_books, self.is_driven);
-            &self.start_loads
+        // After an attempt that was not accepted, what was before it; targets are kept only where steps change them.
+        let (sums, own) = if self.has_left {
+            (&self.old_books, &self.start_loads)
         } else {
-            &self.loads
+            (&self.books, &self.loads)
         };
-        loads.extend(own.total_force.iter().chain(&own.force));
-        if !self.is_ready {
-            books.clear();
-            rates.fill(0.0);
-            loads.fill(0.0);
-        }
+        let (books, momenta) = if self.has_left && self.is_driven {
+            (&self.old_books, &self.old_momenta)
+        } else {
+            (&self.books, &self.momenta)
+        };
         let mut targets = Vec::new();
-        for target in &mut books.targets {
-            target.each_mut(&mut |sum| targets.push(*sum));
+        for (target, momenta) in books.targets.iter().zip(momenta) {
+            targets.extend([target.energy, target.lost]);
+            momenta.clone().each_mut(&mut |sum| targets.push(*sum));
         }
-        SavedExplicit {
+        let mut rates = Vec::new();
+        let mut keep = |[start, now]: [&mut f64; 2]| {
+            rates.push(if self.has_left { *start } else { *now });
+        };
+        for place in &self.places[..self.kept_places] {
+            place.clone().each_rate(&mut keep);
+        }
+        self.stage.clone().each_rate(&mut keep);
+        let mut saved = SavedExplicit {
             is_new: !self.is_ready,
             state: state.digest(),
             is_motion_first: self.is_motion_first,
             targets,
-            shares: books.shares,
-            largest_momentum: books.largest_momentum,
-            residue: books.residue,
+            shares: sums.shares.clone(),
+            largest_momentum: sums.largest_momentum,
+            residue: sums.residue,
             rates,
-            loads,
+            loads: own.total_force.iter().chain(&own.force).copied().collect(),
+        };
+        if saved.is_new {
+            saved.clear();
         }
+        saved
     }
 
     /// Continues from a checkpoint of the same scene.
@@ -47,22 +55,28 @@ impl<const D: usize> Explicit<D> {
         self.is_ready = !saved.is_new;
         self.has_left = true;
         self.is_motion_first = saved.is_motion_first;
-        let books = &mut self.books;
+        let Accounts {
+            books, old_books, ..
+        } = &mut self.accounts;
         let mut sums = saved.targets.iter();
-        for target in &mut books.targets {
-            target.each_mut(&mut |own| {
-                if let Some(sum) = sums.next() {
-                    *own = *sum;
-                }
-            });
+        let mut take = |own: &mut Sum| {
+            if let Some(sum) = sums.next() {
+                *own = *sum;
+            }
+        };
+        for (target, momenta) in books.targets.iter_mut().zip(&mut self.momenta) {
+            take(&mut target.energy);
+            take(&mut target.lost);
+            momenta.each_mut(&mut take);
         }
+        self.old_momenta.copy_from_slice(&self.momenta);
         books.shares.copy_from_slice(&saved.shares);
         books.largest_momentum = saved.largest_momentum;
         books.residue = saved.residue;
         books.terms = None;
-        self.old_books.copy_from(books, true);
+        old_books.copy_from(books, true);
         let mut rates = saved.rates.iter();
-        self.stage.each_rate(self.kept_places, &mut |[start, _]| {
+        self.each_rate(&mut |[start, _]| {
             if let Some(rate) = rates.next() {
                 *start = *rate;
             }

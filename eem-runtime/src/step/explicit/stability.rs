@@ -1,11 +1,14 @@
 //! Why an explicit step failed: it is longer than the fastest motion allows, or an element is too cold.
 
+use super::accounts::Accounts;
 use super::components::Path;
 use super::memory::RowSums;
 use super::tableau::{IMAGINARY_LIMIT, REAL_LIMIT};
 use super::{Explicit, ExplicitView};
 use crate::algebra::largest;
 use crate::element::error::StateError;
+use crate::element::group::Stiffness;
+use crate::element::masses::Masses;
 use crate::step::error::StepFailure;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::Scalar;
@@ -15,6 +18,46 @@ const LIMITS: [f64; 3] = [IMAGINARY_LIMIT, REAL_LIMIT, REAL_LIMIT];
 
 /// The index of the dashpot among them.
 const DASHPOT: usize = 2;
+
+/// A function of the stiffnesses of an element.
+type See<'a> = &'a mut dyn FnMut(Stiffness<'_>);
+
+impl Accounts {
+    /// The fastest vibration, conduction and dashpot, by bounds of the eigenvalues: sums of rows of the
+    /// matrices that are symmetric in `√m q` and `√c θ`, 1/s.
+    fn fastest(&mut self, masses: &Masses, each: &dyn Fn(See<'_>)) -> [f64; 3] {
+        let RowSums {
+            squares,
+            capacities,
+            flows,
+        } = &mut self.scratch.stability;
+        squares.fill(0.0);
+        capacities.fill(0.0);
+        flows.fill(0.0);
+        let per_root = |node: usize| {
+            let mass = masses.get(node);
+            mass.map_or(0.0, |mass| mass.sqrt().recip())
+        };
+        let mut relaxation = 0.0;
+        each(&mut |element| {
+            let [a, b] = element.ends();
+            let [by_a, by_b] = [per_root(a), per_root(b)];
+            let mut stiffness = element.elastic;
+            if let Some((slot, capacity)) = element.capacity {
+                capacities[slot] = capacity;
+                if self.stage.is_held(slot) {
+                    // A thermostat keeps the temperature as a body of any size would.
+                    (stiffness, capacities[slot]) = (element.isothermal, f64::MAX);
+                }
+            }
+            squares[a] += stiffness * by_a * (by_a + by_b);
+            squares[b] += stiffness * by_b * (by_a + by_b);
+            relaxation = Scalar::maximum(relaxation, element.relaxation);
+        });
+        add_conduction(&self.components.paths, capacities, flows);
+        [largest(squares).sqrt(), largest(flows), relaxation]
+    }
+}
 
 impl<const D: usize> Explicit<D> {
     /// The reason behind a failure, if the step is too long to be stable.
@@ -35,7 +78,8 @@ impl<const D: usize> Explicit<D> {
         if !may_be_unstable {
             return failure;
         }
-        self.unstable(view, 0)
+        let end = view.state.time.value + view.step;
+        unstable(self.fastest(view), 0, [view.step, end])
             .or_else(|| self.too_cold(&failure, view))
             .unwrap_or(failure)
     }
@@ -50,24 +94,8 @@ impl<const D: usize> Explicit<D> {
         if self.components.dashpots.is_empty() {
             return Ok(());
         }
-        self.unstable(view, DASHPOT).map_or(Ok(()), Err)
-    }
-
-    /// The error of a step that is too long for one of the processes from this one on.
-    fn unstable(&mut self, view: &ExplicitView<'_, D>, first: usize) -> Option<StepFailure> {
-        let time = view.state.time.value + view.step;
-        let h = view.step;
-        let rates = self.fastest(view);
-        let process = (first..rates.len()).find(|&process| h * rates[process] > LIMITS[process])?;
-        let (fastest, limit) = (rates[process], LIMITS[process]);
-        Some(StepFailure::Unstable {
-            rate: ["ωh", "κh/c", "kh/η"][process],
-            product: h * fastest,
-            limit,
-            longest: limit / fastest,
-            scheme: Scheme::EemEntropy.name(),
-            time,
-        })
+        let end = view.state.time.value + view.step;
+        unstable(self.fastest(view), DASHPOT, [view.step, end]).map_or(Ok(()), Err)
     }
 
     /// The step as a fraction of the longest stable one.
@@ -79,41 +107,14 @@ impl<const D: usize> Explicit<D> {
         view.step * largest
     }
 
-    /// The fastest vibration, conduction and dashpot, by bounds of the eigenvalues: sums of rows of the
-    /// matrices that are symmetric in `√m q` and `√c θ`, 1/s.
+    /// The fastest vibration, conduction and dashpot, 1/s.
     fn fastest(&mut self, view: &ExplicitView<'_, D>) -> [f64; 3] {
-        let RowSums {
-            squares,
-            capacities,
-            flows,
-        } = &mut self.scratch.stability;
-        squares.fill(0.0);
-        capacities.fill(0.0);
-        flows.fill(0.0);
-        let per_root = |node: usize| {
-            let mass = view.masses.get(node);
-            mass.map_or(0.0, |mass| mass.sqrt().recip())
-        };
-        let mut relaxation = 0.0;
-        for group in &self.groups {
-            group.elements().stiffness(view.state, &mut |element| {
-                let [a, b] = element.ends();
-                let [by_a, by_b] = [per_root(a), per_root(b)];
-                let mut stiffness = element.elastic;
-                if let Some((slot, capacity)) = element.capacity {
-                    capacities[slot] = capacity;
-                    if self.stage.is_held(slot) {
-                        // A thermostat keeps the temperature as a body of any size would.
-                        (stiffness, capacities[slot]) = (element.isothermal, f64::MAX);
-                    }
-                }
-                squares[a] += stiffness * by_a * (by_a + by_b);
-                squares[b] += stiffness * by_b * (by_a + by_b);
-                relaxation = Scalar::maximum(relaxation, element.relaxation);
-            });
-        }
-        add_conduction(&self.components.paths, capacities, flows);
-        [largest(squares).sqrt(), largest(flows), relaxation]
+        let groups = &self.groups;
+        self.accounts.fastest(view.masses, &|see: See<'_>| {
+            for group in groups {
+                group.elements().stiffness(view.state, see);
+            }
+        })
     }
 
     /// The element without an admissible temperature, as it was at the start of the step.
@@ -147,6 +148,20 @@ impl<const D: usize> Explicit<D> {
             time: view.state.time.value + view.step,
         })
     }
+}
+
+/// The error of a step that is too long for one of the processes from this one on.
+fn unstable(rates: [f64; 3], first: usize, [h, time]: [f64; 2]) -> Option<StepFailure> {
+    let process = (first..rates.len()).find(|&process| h * rates[process] > LIMITS[process])?;
+    let (fastest, limit) = (rates[process], LIMITS[process]);
+    Some(StepFailure::Unstable {
+        rate: ["ωh", "κh/c", "kh/η"][process],
+        product: h * fastest,
+        limit,
+        longest: limit / fastest,
+        scheme: Scheme::EemEntropy.name(),
+        time,
+    })
 }
 
 /// Adds the flows along paths of heat to the sums of the rows of their slots, given the heat capacities, J/K.

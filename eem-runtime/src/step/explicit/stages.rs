@@ -1,12 +1,13 @@
 //! The stages of a step: stage vectors, their rates, and the integrals of productions.
 
+use super::accounts::Accounts;
 use super::tableau::{
     ERROR_3, ERROR_5, ROW_1, ROW_2, ROW_3, ROW_4, ROW_5, ROW_6, ROW_7, ROW_8, ROW_9, ROW_10,
     ROW_11, STAGES, TIMES, WEIGHTED, WEIGHTS,
 };
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
-use crate::element::group::{Past, Stage};
+use crate::element::group::{Combination, Past, Stage};
 use crate::step::error::StepFailure;
 
 /// The row of the rates of each stage: those of stages 1 and 2 are needed by the next two stages only, and the last two
@@ -31,15 +32,15 @@ const WEIGHT_OF: [Option<usize>; STAGES] = {
 #[inline]
 pub(super) fn errors<const N: usize, const P: usize>(past: &Past<N, P>) -> [[[f64; N]; P]; 2] {
     [
-        past.combined(WEIGHTED_ROWS, &ERROR_5),
-        past.combined(WEIGHTED_ROWS, &ERROR_3),
+        past.combined((&WEIGHTED_ROWS, &ERROR_5)),
+        past.combined((&WEIGHTED_ROWS, &ERROR_3)),
     ]
 }
 
 /// The variables at the end of a step of the size h, before it is closed.
 #[inline]
 pub(super) fn unclosed<const N: usize, const P: usize>(past: &Past<N, P>, h: f64) -> [[f64; N]; P] {
-    past.after(h, WEIGHTED_ROWS, &WEIGHTS)
+    past.after(h, (&WEIGHTED_ROWS, &WEIGHTS))
 }
 
 /// The same as [`combine`](Explicit::combine) for the internal variables.
@@ -48,13 +49,7 @@ pub(super) fn unclosed<const N: usize, const P: usize>(past: &Past<N, P>, h: f64
     clippy::inline_always,
     reason = "rows and coefficients are constants of the caller"
 )]
-fn combine_inner<const D: usize, const T: usize>(
-    stage: &mut Stage<D>,
-    last: usize,
-    h: f64,
-    rows: [usize; T],
-    a: &[f64; T],
-) {
+fn combine_inner(stage: &mut Stage, last: usize, h: f64, terms: Combination<'_>) {
     let inner = stage.inner.as_chunks_mut().0.as_chunks_mut().0;
     let rates = stage.inner_rates.as_chunks_mut().0.as_chunks_mut().0;
     let pairs = inner.iter_mut().zip(rates).zip(&mut stage.inner_past);
@@ -62,8 +57,32 @@ fn combine_inner<const D: usize, const T: usize>(
         if last == 0 {
             past.start = *now;
         }
-        *now = past.advance(rates, h, rows, a);
+        *now = past.advance(rates, h, terms);
         *rates = [[0.0]; 2];
+    }
+}
+
+impl Accounts {
+    /// Initialises the rates of temperatures with the heat that flows along paths.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as above")]
+    fn conduct(&mut self, weight: Option<usize>) {
+        if self.components.paths.is_empty() {
+            return;
+        }
+        let theta = &self.stage.inner[self.stage.temperatures..];
+        let rates = &mut self.stage.inner_rates[self.stage.temperatures..][..theta.len()];
+        for path in &mut self.components.paths {
+            let [a, b] = path.ends;
+            let [near, far] = [theta[a], theta[b]];
+            let flow = path.conductance * (far - near);
+            rates[a] += flow;
+            // That of a reservoir is not used.
+            rates[b] -= flow;
+            if let Some(at) = weight {
+                (path.temperatures[0][at], path.temperatures[1][at]) = (near, far);
+            }
+        }
     }
 }
 
@@ -73,18 +92,18 @@ impl<const D: usize> Explicit<D> {
         &mut self,
         view: &ExplicitView<'_, D>,
     ) -> Result<(), StepFailure> {
-        self.stage::<1, _>(view, [0], &ROW_1)?;
-        self.stage::<2, _>(view, [0, 1], &ROW_2)?;
-        self.stage::<3, _>(view, [0, 2], &ROW_3)?;
-        self.stage::<4, _>(view, [0, 2, 3], &ROW_4)?;
-        self.stage::<5, _>(view, [0, 3, 4], &ROW_5)?;
-        self.stage::<6, _>(view, [0, 3, 4, 5], &ROW_6)?;
-        self.stage::<7, _>(view, [0, 3, 4, 5, 6], &ROW_7)?;
-        self.stage::<8, _>(view, [0, 3, 4, 5, 6, 7], &ROW_8)?;
-        self.stage::<9, _>(view, [0, 3, 4, 5, 6, 7, 8], &ROW_9)?;
-        self.stage::<10, _>(view, [0, 3, 4, 5, 6, 7, 8, 9], &ROW_10)?;
-        self.stage::<11, _>(view, [0, 3, 4, 5, 6, 7, 8, 9, ROWS[10]], &ROW_11)?;
-        self.combine(STAGES - 1, view.step, WEIGHTED_ROWS, &WEIGHTS);
+        self.stage(view, 1, (&[0], &ROW_1))?;
+        self.stage(view, 2, (&[0, 1], &ROW_2))?;
+        self.stage(view, 3, (&[0, 2], &ROW_3))?;
+        self.stage(view, 4, (&[0, 2, 3], &ROW_4))?;
+        self.stage(view, 5, (&[0, 3, 4], &ROW_5))?;
+        self.stage(view, 6, (&[0, 3, 4, 5], &ROW_6))?;
+        self.stage(view, 7, (&[0, 3, 4, 5, 6], &ROW_7))?;
+        self.stage(view, 8, (&[0, 3, 4, 5, 6, 7], &ROW_8))?;
+        self.stage(view, 9, (&[0, 3, 4, 5, 6, 7, 8], &ROW_9))?;
+        self.stage(view, 10, (&[0, 3, 4, 5, 6, 7, 8, 9], &ROW_10))?;
+        self.stage(view, 11, (&[0, 3, 4, 5, 6, 7, 8, 9, ROWS[10]], &ROW_11))?;
+        self.combine(STAGES - 1, view.step, (&WEIGHTED_ROWS, &WEIGHTS));
         if self.is_driven {
             self.move_to(STAGES - 1);
         }
@@ -97,32 +116,32 @@ impl<const D: usize> Explicit<D> {
         clippy::inline_always,
         reason = "stages and coefficients are constants of the caller"
     )]
-    fn stage<const STAGE: usize, const T: usize>(
+    fn stage(
         &mut self,
         view: &ExplicitView<'_, D>,
-        rows: [usize; T],
-        a: &[f64; T],
+        stage: usize,
+        terms: Combination<'_>,
     ) -> Result<(), StepFailure> {
-        self.combine(STAGE - 1, view.step, rows, a);
+        self.combine(stage - 1, view.step, terms);
         if self.is_driven {
-            self.drive(view, STAGE)?;
+            self.drive(view, stage)?;
         }
-        Ok(self.find_rates(WEIGHT_OF[STAGE])?)
+        Ok(self.find_rates(WEIGHT_OF[stage])?)
     }
 
     /// Stores the rates of the last stage, moves to `y = y⁰ + h Σ a k` with the rates of some rows, and initialises the
     /// rates there.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as above")]
-    fn combine<const T: usize>(&mut self, last: usize, h: f64, rows: [usize; T], a: &[f64; T]) {
-        for place in &mut self.stage.places[..self.components.masses] {
+    fn combine(&mut self, last: usize, h: f64, terms: Combination<'_>) {
+        for place in &mut self.places[..self.accounts.components.masses] {
             if last == 0 {
                 place.past.start = place.now;
             }
-            place.now = place.past.advance(&place.rates, h, rows, a);
+            place.now = place.past.advance(&place.rates, h, terms);
             place.begin_rates();
         }
-        combine_inner(&mut self.stage, last, h, rows, a);
+        combine_inner(&mut self.accounts.stage, last, h, terms);
     }
 
     /// Sets what is prescribed at a stage, and the loads.
@@ -153,8 +172,8 @@ impl<const D: usize> Explicit<D> {
 
     /// Initialises the forces on masses with the loads.
     fn apply_loads(&mut self) {
-        let masses = self.stage.places[..self.components.masses].iter_mut();
-        for (place, &node) in masses.zip(&self.components.nodes) {
+        let masses = self.places[..self.accounts.components.masses].iter_mut();
+        for (place, &node) in masses.zip(&self.accounts.components.nodes) {
             place.rates[1] = self.loads.total_force(node);
         }
     }
@@ -166,7 +185,7 @@ impl<const D: usize> Explicit<D> {
         self.stage.weight = weight.map_or(0.0, |at| WEIGHTS[at]);
         self.conduct(weight);
         for group in &self.groups {
-            group.rates(&mut self.stage)?;
+            group.rates(&mut self.places, &mut self.accounts.stage)?;
         }
         self.evaluations += 1;
         if self.is_driven
@@ -180,32 +199,10 @@ impl<const D: usize> Explicit<D> {
         Ok(())
     }
 
-    /// Initialises the rates of temperatures with the heat that flows along paths.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "as above")]
-    fn conduct(&mut self, weight: Option<usize>) {
-        if self.components.paths.is_empty() {
-            return;
-        }
-        let theta = &self.stage.inner[self.stage.temperatures..];
-        let rates = &mut self.stage.inner_rates[self.stage.temperatures..][..theta.len()];
-        for path in &mut self.components.paths {
-            let [a, b] = path.ends;
-            let [near, far] = [theta[a], theta[b]];
-            let flow = path.conductance * (far - near);
-            rates[a] += flow;
-            // That of a reservoir is not used.
-            rates[b] -= flow;
-            if let Some(at) = weight {
-                (path.temperatures[0][at], path.temperatures[1][at]) = (near, far);
-            }
-        }
-    }
-
     /// Finds the rates of the closed state.
     #[inline]
     pub(super) fn finish(&mut self) -> Result<(), StepFailure> {
-        for place in &mut self.stage.places[..self.components.masses] {
+        for place in &mut self.places[..self.accounts.components.masses] {
             place.begin_rates();
         }
         self.stage.inner_rates.fill(0.0);
@@ -218,7 +215,7 @@ impl<const D: usize> Explicit<D> {
         self.stage.weight = 0.0;
         self.conduct(Some(0));
         for group in &self.groups {
-            group.finish(&mut self.stage)?;
+            group.finish(&mut self.places, &mut self.accounts.stage)?;
         }
         Ok(())
     }

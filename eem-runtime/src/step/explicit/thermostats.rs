@@ -1,54 +1,35 @@
 //! Thermostats: the heat that they give follows from the entropy that they give, `δQ = θ dS`, never from what the energy
 //! lacks. An energy defect of their elements is closed like any other.
 
+use super::Explicit;
+use super::accounts::Accounts;
 use super::guard::{PerWeight, shifted};
 use super::tableau::STAGES;
-use super::{Explicit, ExplicitView};
 use crate::element::group::Thermostat;
 use crate::element::state::State;
 
-impl<const D: usize> Explicit<D> {
-    /// Begins the integrals of thermostats at the start of a step.
-    pub(super) fn begin_thermostats(&mut self) {
-        if !self.stage.has_thermostats {
-            return;
-        }
-        for held in &self.prescribed.held {
-            self.stage.thermostats[held.slot].begin(held.temperatures[STAGES - 1]);
-        }
-        self.integrate_thermostats(true);
-    }
-
-    /// Adds the present stage to the integrals of thermostats.
-    #[cold]
-    pub(super) fn integrate_thermostats(&mut self, is_start: bool) {
-        for group in &self.groups {
-            group.integrate_thermostats(&mut self.stage, is_start);
-        }
-    }
-
+impl Accounts {
     /// The entropy that held elements have received from dashpots and paths, and the part of the heat of thermostats that
     /// follows from the course of their temperature.
-    pub(super) fn book_course(&mut self, view: &ExplicitView<'_, D>, next: &State) {
-        let old = view.state;
-        for held in &self.prescribed.held {
+    pub(super) fn book_course(&mut self, h: f64, old: &State, next: &State) {
+        for held in &self.held {
             let slot = held.slot;
             let thermostat = &self.stage.thermostats[slot];
             let change = thermostat.last - old.temperatures[slot];
             let warming = thermostat.warming + change * old.entropies.values()[slot];
             let balance = &mut self.scratch.held[slot];
             balance.received = next.entropies.change(slot, &old.entropies);
-            balance.by_course = warming - view.step * thermostat.sum;
+            balance.by_course = warming - h * thermostat.sum;
         }
     }
 
     /// Books the heat of thermostats in open components, given the entropies of their elements.
-    pub(super) fn book_thermostats(&mut self, view: &ExplicitView<'_, D>, next: &State) {
-        for at in 0..self.prescribed.held.len() {
-            let slot = self.prescribed.held[at].slot;
+    pub(super) fn book_thermostats(&mut self, old: &State, next: &State) {
+        for at in 0..self.held.len() {
+            let slot = self.held[at].slot;
             if self.scratch.open[self.components.of_slot(slot)] {
                 let balance = &mut self.scratch.held[slot];
-                let change = next.entropies.change(slot, &view.state.entropies);
+                let change = next.entropies.change(slot, &old.entropies);
                 balance.given = change - balance.received;
                 self.book_heat(slot);
             }
@@ -76,6 +57,27 @@ impl<const D: usize> Explicit<D> {
                 target.add(change);
             }
             balance.heat = heat;
+        }
+    }
+}
+
+impl<const D: usize> Explicit<D> {
+    /// Begins the integrals of thermostats at the start of a step.
+    pub(super) fn begin_thermostats(&mut self) {
+        if !self.stage.has_thermostats {
+            return;
+        }
+        for held in &self.accounts.held {
+            self.accounts.stage.thermostats[held.slot].begin(held.temperatures[STAGES - 1]);
+        }
+        self.integrate_thermostats(true);
+    }
+
+    /// Adds the present stage to the integrals of thermostats.
+    #[cold]
+    pub(super) fn integrate_thermostats(&mut self, is_start: bool) {
+        for group in &self.groups {
+            group.integrate_thermostats(&self.places, &mut self.accounts.stage, is_start);
         }
     }
 }

@@ -60,12 +60,20 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     }
 
     /// See [`ExplicitGroup::finish`](super::ExplicitGroup::finish).
-    pub(super) fn finish_all(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
+    pub(super) fn finish_all(
+        &self,
+        places: &mut [Place<D>],
+        stage: &mut Stage,
+    ) -> Result<(), StateError> {
         for ((point, spot), closed) in self.placed().zip(&self.closed) {
             let theta = spot.temperature_in(stage, M::THERMAL);
             let found = closed.at(theta, point.dashpots());
-            if !point.write_rates(spot.nodes, spot.temperature, &found, stage) {
-                return Err(point.refuse(spot, stage));
+            if !point.write_rates(
+                (spot.nodes, spot.temperature),
+                &found,
+                (&mut *places, &mut *stage),
+            ) {
+                return Err(point.refuse(spot, (places, stage)));
             }
         }
         Ok(())
@@ -81,7 +89,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         view: &mut ClosingView<'_, D>,
         closed: &mut Closed<M, K, D>,
     ) -> Result<(), StateError> {
-        let r = &arms_of::<K, D>(&spot.nodes, &view.stage.places, Place::q);
+        let r = &arms_of::<K, D>(&spot.nodes, view.places, Place::q);
         let measures = self.admissible_measures(r)?;
         let theta = spot.temperature_in(view.stage, M::THERMAL);
         let x = self.variables_at(&measures, view.stage, theta);

@@ -4,7 +4,7 @@ use crate::element::conjugates::{OneSet, PointRule};
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::explicit::closed::Closed;
-use crate::element::group::explicit::stage::Stage;
+use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::explicit::view::ClosingView;
 use crate::element::group::interface::{Elements, ExplicitGroup, Loose};
 use crate::element::group::loose::LooseElements;
@@ -98,12 +98,12 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> ExplicitGroup<D>
         }
     }
 
-    fn rates(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
-        self.rates_of_all(stage)
+    fn rates(&self, places: &mut [Place<D>], stage: &mut Stage) -> Result<(), StateError> {
+        self.rates_of_all(places, stage)
     }
 
-    fn integrate_thermostats(&self, stage: &mut Stage<D>, is_start: bool) {
-        self.integrate_thermostats_of_all(stage, is_start);
+    fn integrate_thermostats(&self, places: &[Place<D>], stage: &mut Stage, is_start: bool) {
+        self.integrate_thermostats_of_all(places, stage, is_start);
     }
 
     fn close(&mut self, view: &mut ClosingView<'_, D>) -> Result<(), StateError> {
@@ -114,7 +114,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> ExplicitGroup<D>
         self.pull_all(components, forces, creep);
     }
 
-    fn finish(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
-        self.finish_all(stage)
+    fn finish(&self, places: &mut [Place<D>], stage: &mut Stage) -> Result<(), StateError> {
+        self.finish_all(places, stage)
     }
 }

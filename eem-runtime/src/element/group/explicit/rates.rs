@@ -18,7 +18,11 @@ use eem_material::number::scalar::is_positive;
 
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
-    pub(super) fn rates_of_all(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
+    pub(super) fn rates_of_all(
+        &self,
+        places: &mut [Place<D>],
+        stage: &mut Stage,
+    ) -> Result<(), StateError> {
         // Known from here on, so that an index is checked once for both.
         assert!(
             stage.inner.len() == stage.inner_rates.len(),
@@ -29,13 +33,14 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
             let &Spot {
                 nodes, temperature, ..
             } = spot;
-            let r = arms_of::<K, D>(&nodes, &stage.places, Place::q);
+            let r = arms_of::<K, D>(&nodes, places, Place::q);
             let measures = point.kinematics.measure(&r);
             let found =
                 point.found_at(&r, &measures, spot.temperature_in(stage, M::THERMAL), stage);
-            let is_sound = point.write_rates(nodes, temperature, &found, stage);
+            let is_sound =
+                point.write_rates((nodes, temperature), &found, (&mut *places, &mut *stage));
             if !(is_sound && point.kinematics.is_admissible(&r, &measures)) {
-                return Err(point.refuse(spot, stage));
+                return Err(point.refuse(spot, (places, stage)));
             }
         }
         Ok(())
@@ -85,7 +90,7 @@ fn is_number(value: f64) -> bool {
 impl<N> Spot<N> {
     /// The temperature of the element at a stage; zero without one.
     #[inline]
-    pub(super) fn temperature_in<const D: usize>(&self, stage: &Stage<D>, is_thermal: bool) -> f64 {
+    pub(super) fn temperature_in(&self, stage: &Stage, is_thermal: bool) -> f64 {
         if is_thermal {
             stage.inner[self.temperature as usize]
         } else {
@@ -102,7 +107,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         r: &Arms<K, D>,
         measures: &Measures<K, D>,
         theta: f64,
-        stage: &Stage<D>,
+        stage: &Stage,
     ) -> Found<M, K, D> {
         // Called first: a call of `exp` would spill the registers used below.
         let viscosities = match M::DASHPOTS {
@@ -122,7 +127,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     pub(super) fn variables_at(
         &self,
         measures: &Measures<K, D>,
-        stage: &Stage<D>,
+        stage: &Stage,
         theta: f64,
     ) -> M::Variables {
         let mut x = M::Variables::filled(0.0);
@@ -146,13 +151,12 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     )]
     pub(super) fn write_rates(
         &self,
-        nodes: K::PerNode<u32>,
-        temperature: u32,
+        (nodes, temperature): (K::PerNode<u32>, u32),
         found: &Found<M, K, D>,
-        stage: &mut Stage<D>,
+        (places, stage): (&mut [Place<D>], &mut Stage),
     ) -> bool {
         let at = temperature as usize;
-        let motion = arms_of::<K, D>(&nodes, &stage.places, Place::velocity);
+        let motion = arms_of::<K, D>(&nodes, places, Place::velocity);
         let Rates { forces, slopes } = &found.rates;
         let mut pull = found.gradient[0];
         scale::<K, D>(&mut pull, forces[0]);
@@ -165,8 +169,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             drift += slopes[a] * speed;
         }
         for (index, arm) in pull.as_ref().iter().enumerate() {
-            stage.places[nodes[index + 1] as usize].push(arm);
-            stage.places[nodes[0] as usize].pull(arm);
+            places[nodes[index + 1] as usize].push(arm);
+            places[nodes[0] as usize].pull(arm);
         }
         let viscous = self.slots().viscous;
         let flow = if M::THERMAL {
@@ -211,9 +215,13 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
 
     /// The error of an element that has no valid rates.
     #[cold]
-    pub(super) fn refuse(&self, spot: &Spot<K::PerNode<u32>>, stage: &Stage<D>) -> StateError {
+    pub(super) fn refuse(
+        &self,
+        spot: &Spot<K::PerNode<u32>>,
+        (places, stage): (&[Place<D>], &Stage),
+    ) -> StateError {
         let element = self.element;
-        let r = &arms_of::<K, D>(&spot.nodes, &stage.places, Place::q);
+        let r = &arms_of::<K, D>(&spot.nodes, places, Place::q);
         let measures = self.kinematics.measure(r);
         if !self.kinematics.is_admissible(r, &measures) {
             return self.kinematics.refusal(element, r);

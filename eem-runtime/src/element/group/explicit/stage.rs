@@ -6,6 +6,9 @@ use crate::element::layout::Layout;
 /// The number of stages whose rates are stored at the same time.
 pub(crate) const KEPT: usize = 10;
 
+/// Rows of rates and their coefficients, constants where they are used.
+pub(crate) type Combination<'a> = (&'a [usize], &'a [f64]);
+
 /// Variables at the start of a step, and their rates at its stages.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
@@ -33,12 +36,12 @@ impl<const N: usize, const P: usize> Past<N, P> {
         clippy::needless_range_loop,
         reason = "with `array::from_fn` a step takes a quarter more instructions"
     )]
-    pub(crate) fn combined<const T: usize>(&self, rows: [usize; T], a: &[f64; T]) -> [[f64; N]; P] {
+    pub(crate) fn combined(&self, (rows, a): Combination<'_>) -> [[f64; N]; P] {
         let mut sums = [[0.0; N]; P];
         for part in 0..P {
             for index in 0..N {
                 let mut sum = a[0] * self.rates[rows[0]][part][index];
-                for term in 1..T {
+                for term in 1..a.len() {
                     sum += a[term] * self.rates[rows[term]][part][index];
                 }
                 sums[part][index] = sum;
@@ -47,42 +50,31 @@ impl<const N: usize, const P: usize> Past<N, P> {
         sums
     }
 
-    /// Stores the newest rates in the last row; `y = y⁰ + h Σ a k`. In one loop, so that they are not loaded again.
+    /// Stores the newest rates in the last row; `y = y⁰ + h Σ a k`. Stored one by one, they are not loaded again.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as above")]
-    pub(crate) fn advance<const T: usize>(
+    #[expect(clippy::needless_range_loop, reason = "as above")]
+    pub(crate) fn advance(
         &mut self,
         newest: &[[f64; N]; P],
         h: f64,
-        rows: [usize; T],
-        a: &[f64; T],
+        (rows, a): Combination<'_>,
     ) -> [[f64; N]; P] {
-        let mut y = [[0.0; N]; P];
+        let last = rows[rows.len() - 1];
         for part in 0..P {
             for index in 0..N {
-                let newest = newest[part][index];
-                self.rates[rows[T - 1]][part][index] = newest;
-                let mut sum = a[0] * self.rates[rows[0]][part][index];
-                for term in 1..T {
-                    sum += a[term] * self.rates[rows[term]][part][index];
-                }
-                y[part][index] = self.start[part][index] + h * sum;
+                self.rates[last][part][index] = newest[part][index];
             }
         }
-        y
+        self.after(h, (rows, a))
     }
 
     /// `y = y⁰ + h Σ a k`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as above")]
     #[expect(clippy::needless_range_loop, reason = "as above")]
-    pub(crate) fn after<const T: usize>(
-        &self,
-        h: f64,
-        rows: [usize; T],
-        a: &[f64; T],
-    ) -> [[f64; N]; P] {
-        let mut y = self.combined(rows, a);
+    pub(crate) fn after(&self, h: f64, terms: Combination<'_>) -> [[f64; N]; P] {
+        let mut y = self.combined(terms);
         for part in 0..P {
             for index in 0..N {
                 y[part][index] = self.start[part][index] + h * y[part][index];
@@ -160,6 +152,14 @@ impl<const D: usize> Place<D> {
         self.per_mass[0]
     }
 
+    /// Calls a function for its rates, at the start of the step and now.
+    pub(crate) fn each_rate(&mut self, visit: &mut dyn FnMut([&mut f64; 2])) {
+        let starts = self.past.rates[0].as_flattened_mut().iter_mut();
+        for (start, now) in starts.zip(self.rates.as_flattened_mut()) {
+            visit([start, now]);
+        }
+    }
+
     #[inline]
     pub(crate) const fn q(&self) -> &[f64; D] {
         &self.now[0]
@@ -177,7 +177,7 @@ impl<const D: usize> Place<D> {
 }
 
 /// A rate at the present stage and at the start of the step, and its sum over the stages so far with their weights.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Integral {
     pub(crate) rate: f64,
     pub(crate) start: f64,
@@ -185,11 +185,6 @@ pub(crate) struct Integral {
 }
 
 impl Integral {
-    fn none() -> Self {
-        let (rate, start, sum) = (0.0, 0.0, 0.0);
-        Self { rate, start, sum }
-    }
-
     /// Begins a step, with the weight of its start.
     #[inline]
     pub(crate) fn begin(&mut self, weight: f64) {
@@ -215,7 +210,7 @@ impl Integral {
 ///
 /// with `x = (λ, γ)` and the heat `Q_in` of dashpots and paths. This is `∫ θ dS`, by `s = −∂ψ/∂θ`, without the rate of θ, which
 /// may jump. Nothing but `θ G` is left where θ is constant.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Thermostat {
     /// Whether there is one.
     pub(crate) holds: bool,
@@ -236,10 +231,7 @@ impl Thermostat {
         Self {
             holds,
             last: 1.0,
-            received: 0.0,
-            start: 0.0,
-            sum: 0.0,
-            warming: 0.0,
+            ..Self::default()
         }
     }
 
@@ -265,11 +257,9 @@ pub(crate) fn first_reservoir(layout: &Layout) -> usize {
     2 * pairs(layout) - layout.viscous
 }
 
-/// All variables at a stage.
+/// The internal variables at a stage, and the integrals of the step so far.
 #[derive(Clone, Debug)]
-pub(crate) struct Stage<const D: usize> {
-    /// Masses, then anchors.
-    pub(crate) places: Vec<Place<D>>,
+pub(crate) struct Stage {
     /// The internal variables: viscous stretches, m, then the temperatures of thermal slots and, from the next pair on, of
     /// reservoirs, K.
     pub(crate) inner: Vec<f64>,
@@ -292,27 +282,17 @@ pub(crate) struct Stage<const D: usize> {
     pub(crate) has_thermostats: bool,
 }
 
-impl<const D: usize> Stage<D> {
-    /// A stage with places of these masses.
-    pub(crate) fn new(
-        masses: &[f64],
-        layout: &Layout,
-        reservoirs: usize,
-        thermostats: Vec<Thermostat>,
-    ) -> Self {
+impl Stage {
+    /// A stage of a scene.
+    pub(crate) fn new(layout: &Layout, reservoirs: usize, thermostats: Vec<Thermostat>) -> Self {
         let pairs = pairs(layout);
         let all = 2 * pairs + reservoirs;
-        let mut places = Vec::with_capacity(masses.len());
-        for &mass in masses {
-            places.push(Place::new(mass));
-        }
         Self {
-            places,
             inner: vec![1.0; all],
             inner_rates: vec![0.0; all],
             inner_past: vec![Past::none(); pairs],
             temperatures: layout.viscous,
-            productions: vec![Integral::none(); layout.viscous],
+            productions: vec![Integral::default(); layout.viscous],
             heats: Vec::new(),
             has_heats: false,
             weight: 0.0,
@@ -354,40 +334,8 @@ impl<const D: usize> Stage<D> {
         &mut self.inner[self.temperatures + slot]
     }
 
-    /// Pairs of all rates, at the start of the step and now; of places only the first `places`.
-    pub(crate) fn rates(&self, places: usize) -> Vec<[f64; 2]> {
-        let mut all = Vec::new();
-        for of in &self.places[..places] {
-            for part in 0..2 {
-                for axis in 0..D {
-                    all.push([of.past.rates[0][part][axis], of.rates[part][axis]]);
-                }
-            }
-        }
-        let starts = self.inner_past.iter().flat_map(|past| past.rates[0]);
-        all.extend(
-            starts
-                .zip(&self.inner_rates)
-                .map(|([start], &now)| [start, now]),
-        );
-        for of in &self.productions {
-            all.push([of.start, of.rate]);
-        }
-        for of in &self.thermostats {
-            all.push([of.start, of.received]);
-        }
-        all
-    }
-
-    /// Calls a function for the same pairs in the same order.
-    pub(crate) fn each_rate(&mut self, places: usize, visit: &mut dyn FnMut([&mut f64; 2])) {
-        for of in &mut self.places[..places] {
-            for part in 0..2 {
-                for axis in 0..D {
-                    visit([&mut of.past.rates[0][part][axis], &mut of.rates[part][axis]]);
-                }
-            }
-        }
+    /// Calls a function for all rates, at the start of the step and now.
+    pub(crate) fn each_rate(&mut self, visit: &mut dyn FnMut([&mut f64; 2])) {
         let starts = self
             .inner_past
             .iter_mut()

@@ -11,11 +11,16 @@ use eem_material::free_energy::Material;
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::integrate_thermostats`](super::ExplicitGroup::hold).
     #[cold]
-    pub(super) fn integrate_thermostats_of_all(&self, stage: &mut Stage<D>, is_start: bool) {
+    pub(super) fn integrate_thermostats_of_all(
+        &self,
+        places: &[Place<D>],
+        stage: &mut Stage,
+        is_start: bool,
+    ) {
         for (point, spot) in self.placed() {
             let held = point.slots().thermal.filter(|&slot| stage.is_held(slot));
             if let Some(slot) = held {
-                point.integrate_thermostat(slot, &spot.nodes, stage, is_start);
+                point.integrate_thermostat(slot, &spot.nodes, (places, stage), is_start);
             }
         }
     }
@@ -27,7 +32,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         &self,
         slot: usize,
         nodes: &K::PerNode<u32>,
-        stage: &mut Stage<D>,
+        (places, stage): (&[Place<D>], &mut Stage),
         is_start: bool,
     ) {
         let (theta, thermostat) = (stage.theta(slot), &stage.thermostats[slot]);
@@ -39,10 +44,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         if theta == last {
             return;
         }
-        let r = arms_of::<K, D>(nodes, &stage.places, Place::q);
+        let r = arms_of::<K, D>(nodes, places, Place::q);
         let measures = self.kinematics.measure(&r);
         let gradient = self.kinematics.gradient(&r, &measures);
-        let motion = arms_of::<K, D>(nodes, &stage.places, Place::velocity);
+        let motion = arms_of::<K, D>(nodes, places, Place::velocity);
         let x = self.variables_at(&measures, stage, theta);
         let at_last = self.variables_at(&measures, stage, last);
         let (own, other) = (

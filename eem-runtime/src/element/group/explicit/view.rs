@@ -1,6 +1,6 @@
 //! Data that elements exchange with the closing of an explicit step.
 
-use crate::element::group::explicit::stage::Stage;
+use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::handle::Element;
 use crate::element::state::{Energy, State};
 use eem_material::number::compensated::Total;
@@ -10,8 +10,9 @@ use eem_material::number::compensated::Total;
 pub(crate) struct ClosingView<'a, const D: usize> {
     /// Whether a component is still to be closed.
     pub(crate) open: &'a [bool],
+    pub(crate) places: &'a [Place<D>],
     /// Its temperatures are guesses; `close` replaces them by those found from the entropies, except at thermostats.
-    pub(crate) stage: &'a mut Stage<D>,
+    pub(crate) stage: &'a mut Stage,
     /// Per thermal slot.
     pub(crate) slots: &'a mut [Caloric],
     /// The first stored entropy that differs by more than rounding from that of the temperature found for it.
@@ -41,7 +42,7 @@ pub(crate) struct UnkeptEntropy {
 }
 
 /// The internal energy of the elements of a component.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ComponentEnergy {
     /// `Σ (ψ + θ s)`, J.
     pub(crate) value: Total,
@@ -53,16 +54,6 @@ pub(crate) struct ComponentEnergy {
 }
 
 impl ComponentEnergy {
-    /// Zero sums.
-    pub(crate) fn none() -> Self {
-        Self {
-            value: Total::default(),
-            magnitude: 0.0,
-            terms: 0.0,
-            excess: 0.0,
-        }
-    }
-
     /// Adds the energy of an element.
     #[inline]
     pub(crate) fn add(&mut self, energy: &Energy) {

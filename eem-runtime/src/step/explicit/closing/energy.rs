@@ -1,8 +1,9 @@
 //! The energy of a component, and its correction by heat.
 
 use super::super::Explicit;
+use super::super::accounts::Accounts;
 use super::super::demand::Demand;
-use super::super::memory::Motion;
+use super::super::memory::{Motion, MotionEnergy};
 use super::super::origin::Origin;
 use super::{FROZEN, Status};
 use crate::algebra::dot;
@@ -31,34 +32,12 @@ pub(super) struct Warmth {
     warmed: f64,
 }
 
-impl<const D: usize> Explicit<D> {
-    /// Finds the sums over the masses of a component for their present positions and momenta.
+impl Accounts {
+    /// The energy of a component with this motion, and the magnitude of its terms, J.
     #[inline]
-    pub(in super::super) fn look_at_motion(&mut self, index: usize) {
-        self.sum_motion(index, Motion::add);
-    }
-
-    /// Sums what `add` adds for each mass of a component and its arm.
-    #[inline]
-    pub(super) fn sum_motion(
-        &mut self,
-        index: usize,
-        add: impl Fn(&mut Motion<D>, &Place<D>, &[f64; D]),
-    ) {
-        let component = &self.components.all[index];
-        let origin = Origin::of(&self.stage.places, component);
-        let mut motion = Motion::none();
-        for place in &self.stage.places[component.masses.clone()] {
-            add(&mut motion, place, &origin.arm(place.q()));
-        }
-        self.scratch.motions[index] = motion;
-    }
-
-    /// The energy of a component, and the magnitude of its terms, J.
-    #[inline]
-    pub(in super::super) fn energy_of(&self, index: usize) -> [f64; 2] {
-        let (motion, inner) = (&self.scratch.motions[index], &self.scratch.energies[index]);
-        let (mut energy, mut magnitude) = (motion.energy, motion.magnitude + inner.magnitude);
+    pub(in super::super) fn energy_of(&self, index: usize, motion: &MotionEnergy) -> [f64; 2] {
+        let inner = &self.scratch.energies[index];
+        let (mut energy, mut magnitude) = (motion.value, motion.magnitude + inner.magnitude);
         energy.add(inner.value.value());
         if self.is_driven {
             let lost = self.books.targets[index].lost;
@@ -78,29 +57,10 @@ impl<const D: usize> Explicit<D> {
         [energy.value(), magnitude]
     }
 
-    /// The magnitude by which the state at the start of a step enters the bound of the energy, and its energy terms, J.
-    #[cold]
-    pub(in super::super) fn terms_at_start(&self, state: &State) -> [f64; 2] {
-        let [mut motion, mut potential] = [0.0; 2];
-        for place in &self.stage.places[..self.components.masses] {
-            let [q, p] = &place.past.start;
-            motion += 0.5 * dot(p, p) * place.per_mass();
-            for (force, q) in place.force.iter().zip(q) {
-                potential += (force * q).abs();
-            }
-        }
-        let [mut counted, mut terms] = [motion + potential, motion];
-        for energy in &state.energies {
-            counted += energy.magnitude + energy.excess;
-            terms += energy.terms;
-        }
-        [counted, terms]
-    }
-
     /// The defect of the energy of a component, and the magnitude of its terms, J.
     #[inline]
-    pub(in super::super) fn defect_of(&self, index: usize) -> [f64; 2] {
-        let [energy, magnitude] = self.energy_of(index);
+    pub(in super::super) fn defect_of(&self, index: usize, motion: &MotionEnergy) -> [f64; 2] {
+        let [energy, magnitude] = self.energy_of(index, motion);
         let target = self.books.targets[index].energy;
         // Below the smallest normal number, rounding is that of this number.
         let least = self.scratch.subnormal * self.components.all[index].products;
@@ -112,9 +72,14 @@ impl<const D: usize> Explicit<D> {
 
     /// Corrects the energy by heat as long as no element has to be evaluated for it.
     #[inline]
-    pub(super) fn balance(&mut self, index: usize, demand: Demand, next: &mut State) -> Status {
+    pub(super) fn balance(
+        &mut self,
+        (index, motion): (usize, &MotionEnergy),
+        demand: Demand,
+        next: &mut State,
+    ) -> Status {
         loop {
-            let is_finite = self.look(index);
+            let is_finite = self.look(index, motion);
             let progress = &mut self.scratch.progress[index];
             if progress.is_rigid || progress.is_closed {
                 return Status::Closed;
@@ -143,8 +108,8 @@ impl<const D: usize> Explicit<D> {
 
     /// Finds the defect of a component; returns whether it is finite.
     #[inline]
-    fn look(&mut self, index: usize) -> bool {
-        let present = self.defect_of(index);
+    fn look(&mut self, index: usize, motion: &MotionEnergy) -> bool {
+        let present = self.defect_of(index, motion);
         let progress = &mut self.scratch.progress[index];
         progress.present = Some(present);
         let [defect, magnitude] = present;
@@ -275,5 +240,48 @@ impl<const D: usize> Explicit<D> {
         // 2 √u: neglected are the cube of r, and the second-order change of forces.
         let small = (f64::EPSILON + f64::EPSILON).sqrt();
         ratio.abs() < small && is_met(ratio, [capacity, bend])
+    }
+}
+
+impl<const D: usize> Explicit<D> {
+    /// Finds the sums over the masses of a component for their present positions and momenta.
+    #[inline]
+    pub(in super::super) fn look_at_motion(&mut self, index: usize) {
+        self.sum_motion(index, Motion::add);
+    }
+
+    /// Sums what `add` adds for each mass of a component and its arm.
+    #[inline]
+    pub(super) fn sum_motion(
+        &mut self,
+        index: usize,
+        add: impl Fn(&mut Motion<D>, &Place<D>, &[f64; D]),
+    ) {
+        let component = &self.components.all[index];
+        let origin = Origin::of(&self.places, component);
+        let mut motion = Motion::none();
+        for place in &self.places[component.masses.clone()] {
+            add(&mut motion, place, &origin.arm(place.q()));
+        }
+        self.motions[index] = motion;
+    }
+
+    /// The magnitude by which the state at the start of a step enters the bound of the energy, and its energy terms, J.
+    #[cold]
+    pub(in super::super) fn terms_at_start(&self, state: &State) -> [f64; 2] {
+        let [mut motion, mut potential] = [0.0; 2];
+        for place in &self.places[..self.components.masses] {
+            let [q, p] = &place.past.start;
+            motion += 0.5 * dot(p, p) * place.per_mass();
+            for (force, q) in place.force.iter().zip(q) {
+                potential += (force * q).abs();
+            }
+        }
+        let [mut counted, mut terms] = [motion + potential, motion];
+        for energy in &state.energies {
+            counted += energy.magnitude + energy.excess;
+            terms += energy.terms;
+        }
+        [counted, terms]
     }
 }

@@ -58,7 +58,7 @@ impl<const D: usize> Body<D> {
 impl<const D: usize> Explicit<D> {
     /// The rigid motion of a component with its present momenta.
     pub(super) fn rigid(&self, index: usize) -> Rigid<D> {
-        let (component, motion) = (&self.components.all[index], &self.scratch.motions[index]);
+        let (component, motion) = (&self.components.all[index], &self.motions[index]);
         let body = self.body(component);
         body.motion(component, (&motion.linear, &motion.angular))
     }
@@ -67,7 +67,7 @@ impl<const D: usize> Explicit<D> {
     #[inline]
     fn body(&self, component: &Component) -> Body<D> {
         let mut body = Body {
-            origin: Origin::of(&self.stage.places, component),
+            origin: Origin::of(&self.places, component),
             inertia: None,
         };
         let without_arm = match component.support {
@@ -79,7 +79,7 @@ impl<const D: usize> Explicit<D> {
         if D < 2 || count <= without_arm {
             return body;
         }
-        let masses = &self.stage.places[component.masses.clone()];
+        let masses = &self.places[component.masses.clone()];
         let arm = |place: &Place<D>| body.origin.arm(place.q());
         body.inertia = Some(if count == without_arm + 1 {
             // The other mass of a pair is on the same line through the centre.
@@ -97,7 +97,7 @@ impl<const D: usize> Explicit<D> {
 
     fn moments(&self, component: &Component, origin: &Origin<D>) -> Moments<D> {
         let mut moments = Moments::none();
-        for place in &self.stage.places[component.masses.clone()] {
+        for place in &self.places[component.masses.clone()] {
             moments.add(place.mass, &origin.arm(place.q()));
         }
         moments
@@ -108,7 +108,7 @@ impl<const D: usize> Explicit<D> {
     fn add_rigid(&mut self, index: usize, rigid: &Rigid<D>) {
         let masses = self.components.all[index].masses.clone();
         let mut motion = Motion::none();
-        for place in &mut self.stage.places[masses] {
+        for place in &mut self.places[masses] {
             let arm = rigid.origin.arm(place.q());
             let turning = rigid.omega.turn(&arm);
             let momentum = &mut place.now[1];
@@ -117,7 +117,7 @@ impl<const D: usize> Explicit<D> {
             }
             motion.add(place, &arm);
         }
-        self.scratch.motions[index] = motion;
+        self.motions[index] = motion;
     }
 
     /// Corrects the momenta to their targets; in space repeatedly if the rounding of a correction matters. Positions
@@ -167,7 +167,7 @@ impl<const D: usize> Explicit<D> {
             let component = &self.components.all[index];
             let rigid = body.motion(component, (&linear, &angular));
             self.add_rigid(index, &rigid);
-            let [_, terms] = self.scratch.motions[index].terms;
+            let [_, terms] = self.motions[index].terms;
             // The rotation is known to ε/WEAK of itself.
             if D < 3 || angular.largest() <= WEAK * terms {
                 break;
@@ -183,7 +183,7 @@ impl<const D: usize> Explicit<D> {
     /// The defects of linear and angular momentum of a component.
     #[inline]
     pub(in super::super) fn missing_momenta(&self, index: usize) -> ([f64; D], Bivector<f64, D>) {
-        let (motion, target) = (&self.scratch.motions[index], &self.books.targets[index]);
+        let (motion, target) = (&self.motions[index], &self.momenta[index]);
         let linear = vector(|axis| target.linear[axis].beyond(motion.linear[axis]));
         let angular = target.angular.zip(&motion.angular, 0.0, Sum::beyond);
         (linear, angular)
@@ -201,7 +201,7 @@ impl<const D: usize> Explicit<D> {
 
     /// The largest defect of the angular momentum that is corrected by momenta alone.
     fn own_rounding(&self, index: usize) -> f64 {
-        let [_, terms] = self.scratch.motions[index].terms;
+        let [_, terms] = self.motions[index].terms;
         OWN_ROUNDINGS * f64::EPSILON * (terms + self.scratch.progress[index].moment)
     }
 
@@ -215,9 +215,9 @@ impl<const D: usize> Explicit<D> {
     #[cold]
     pub(in super::super) fn moment_at_start(&self, index: usize) -> f64 {
         let component = &self.components.all[index];
-        let origin = Origin::of(&self.stage.places, component);
+        let origin = Origin::of(&self.places, component);
         let mut sum = 0.0;
-        for place in &self.stage.places[component.masses.clone()] {
+        for place in &self.places[component.masses.clone()] {
             let [q, p] = &place.past.start;
             sum += farther(&origin.arm(q), q) * size(p);
         }
@@ -225,7 +225,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     pub(in super::super) fn angular_target(&self, index: usize) -> Bivector<f64, D> {
-        let target = &self.books.targets[index].angular;
+        let target = &self.momenta[index].angular;
         target.map(0.0, |sum| sum.value)
     }
 
@@ -241,7 +241,7 @@ impl<const D: usize> Explicit<D> {
             // No inertia is weak: the momenta alone are corrected.
             return false;
         };
-        let motion = &self.scratch.motions[index];
+        let motion = &self.motions[index];
         let linear = motion.linear;
         let momenta = [&motion.angular, &self.angular_target(index)];
         let Some(change) = turning(&principal, momenta, self.rounding_of_target(index)) else {
@@ -249,7 +249,7 @@ impl<const D: usize> Explicit<D> {
         };
         let velocity = component.velocity(&linear);
         let masses = component.masses.clone();
-        for place in &mut self.stage.places[masses] {
+        for place in &mut self.places[masses] {
             let arm = origin.arm(place.q());
             let mut own = *place.p();
             add(&mut own, -place.mass, &velocity);

@@ -1,5 +1,6 @@
 //! Fallback of the closing: a component that moves nearly like a rigid body is rotated rigidly.
 
+use super::super::accounts::Accounts;
 use super::super::demand::{Demand, Scales};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
@@ -11,29 +12,22 @@ use crate::step::error::StepFailure;
 use eem_material::number::compensated::Total;
 use eem_material::number::scalar::Scalar;
 
-impl<const D: usize> Explicit<D> {
-    /// Replaces the step of a component by a rigid motion of its old state, with the old internal variables: a relative
-    /// equilibrium, at the largest entropy that its energy and momenta allow.
-    pub(super) fn turn_rigidly(
-        &mut self,
-        index: usize,
-        (view, demand, scales): (&ExplicitView<'_, D>, Demand, Scales),
-        next: &mut State,
-    ) -> Result<(), StepFailure> {
-        let largest = demand.largest_turn();
-        let is_loaded = !self.load_sums.is_empty();
-        let slots = &self.components.slots[self.slots_of(index)];
-        let has_thermostat = slots.iter().any(|&slot| self.stage.is_held(slot));
-        if is_loaded || has_thermostat || !self.takes_turn(index, view.step, largest, scales) {
-            return Err(StepFailure::NotClosed {
-                defect: self.scratch.progress[index].defect,
-                time: view.state.time.value + view.step,
-            });
-        }
+/// The magnitude of a difference over its scale; zero without a difference.
+fn part(difference: f64, scale: f64) -> f64 {
+    let is_none = difference == 0.0;
+    if is_none {
+        difference
+    } else {
+        difference.abs() / scale
+    }
+}
+
+impl Accounts {
+    /// Takes back what the step has done to the internal variables of a component, and to its entropies.
+    fn restore_start(&mut self, index: usize, old: &State, next: &mut State) {
         for dashpot in self.components.dashpots_of(index) {
             self.stage.inner[dashpot] = self.stage.inner_start(dashpot);
         }
-        let old = view.state;
         for at in self.slots_of(index) {
             let slot = self.components.slots[at];
             let at = self.stage.temperatures + slot;
@@ -60,6 +54,46 @@ impl<const D: usize> Explicit<D> {
         progress.present = None;
         progress.production = Total::default();
         progress.factor = 0.0;
+    }
+
+    /// The largest relative difference of an internal variable of a component from its start.
+    fn difference_from_start(&self, index: usize, position: f64) -> f64 {
+        let mut largest = 0.0;
+        let mut see = |at: usize, scale: f64| {
+            let difference = self.stage.inner[at] - self.stage.inner_start(at);
+            largest = Scalar::maximum(largest, part(difference, scale));
+        };
+        for dashpot in self.components.dashpots_of(index) {
+            see(dashpot, position);
+        }
+        for at in self.slots_of(index) {
+            let at = self.stage.temperatures + self.components.slots[at];
+            see(at, self.stage.inner_start(at));
+        }
+        largest
+    }
+}
+
+impl<const D: usize> Explicit<D> {
+    /// Replaces the step of a component by a rigid motion of its old state, with the old internal variables: a relative
+    /// equilibrium, at the largest entropy that its energy and momenta allow.
+    pub(super) fn turn_rigidly(
+        &mut self,
+        index: usize,
+        (view, demand, scales): (&ExplicitView<'_, D>, Demand, Scales),
+        next: &mut State,
+    ) -> Result<(), StepFailure> {
+        let largest = demand.largest_turn();
+        let is_loaded = !self.load_sums.is_empty();
+        let slots = &self.components.slots[self.slots_of(index)];
+        let has_thermostat = slots.iter().any(|&slot| self.stage.is_held(slot));
+        if is_loaded || has_thermostat || !self.takes_turn(index, view.step, largest, scales) {
+            return Err(StepFailure::NotClosed {
+                defect: self.scratch.progress[index].defect,
+                time: view.state.time.value + view.step,
+            });
+        }
+        self.accounts.restore_start(index, view.state, next);
         self.restore_momenta(index);
         self.scratch.open[index] = true;
         Ok(())
@@ -80,7 +114,7 @@ impl<const D: usize> Explicit<D> {
         if !(difference <= largest) {
             return false;
         }
-        for place in &mut self.stage.places[self.components.all[index].masses.clone()] {
+        for place in &mut self.places[self.accounts.components.all[index].masses.clone()] {
             place.now = turned(place, &rigid, h);
         }
         true
@@ -88,7 +122,7 @@ impl<const D: usize> Explicit<D> {
 
     /// Swaps positions and momenta with those at the start of the step.
     pub(super) fn swap_start(&mut self, index: usize) {
-        for place in &mut self.stage.places[self.components.all[index].masses.clone()] {
+        for place in &mut self.places[self.accounts.components.all[index].masses.clone()] {
             core::mem::swap(&mut place.now, &mut place.past.start);
         }
     }
@@ -97,29 +131,14 @@ impl<const D: usize> Explicit<D> {
     fn difference_from_turn(&self, index: usize, rigid: &Rigid<D>, h: f64, scales: Scales) -> f64 {
         let mut largest = 0.0;
         let mut see = |difference: f64, scale: f64| {
-            let is_none = difference == 0.0;
-            let part = if is_none {
-                difference
-            } else {
-                difference.abs() / scale
-            };
-            largest = Scalar::maximum(largest, part);
+            largest = Scalar::maximum(largest, part(difference, scale));
         };
-        for place in &self.stage.places[self.components.all[index].masses.clone()] {
+        for place in &self.places[self.components.all[index].masses.clone()] {
             let [position, momentum] = turned(place, rigid, h);
             see(hypot(&difference(&position, place.q())), scales.position);
             see(hypot(&difference(&momentum, place.p())), scales.momentum);
         }
-        for dashpot in self.components.dashpots_of(index) {
-            let change = self.stage.inner[dashpot] - self.stage.inner_start(dashpot);
-            see(change, scales.position);
-        }
-        for at in self.slots_of(index) {
-            let at = self.stage.temperatures + self.components.slots[at];
-            let start = self.stage.inner_start(at);
-            see(self.stage.inner[at] - start, start);
-        }
-        largest
+        Scalar::maximum(largest, self.difference_from_start(index, scales.position))
     }
 }
 

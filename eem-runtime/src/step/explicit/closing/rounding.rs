@@ -42,15 +42,15 @@
 //! if step control would feel the correction and no anchor is moved. It stays a debt, so that the energy does not drift: what is more than
 //! rounding is corrected. The work of moved anchors changes the prestress, which a debt would outlive.
 
+use super::super::accounts::Accounts;
 use super::super::{Explicit, ExplicitView};
 use super::{FROZEN, Status};
 use crate::algebra::{difference, dot, size};
 use crate::element::group::{ComponentEnergy, points};
 use crate::element::state::State;
-use core::mem::swap;
 use eem_material::number::scalar::Scalar;
 
-impl<const D: usize> Explicit<D> {
+impl Accounts {
     /// Closes a component whose defect is the rounding of its energies; returns whether it is.
     pub(super) fn leave_rounding(&mut self, index: usize) -> bool {
         let (inner, progress) = (
@@ -59,15 +59,16 @@ impl<const D: usize> Explicit<D> {
         );
         let forces = Scalar::maximum(inner.terms - inner.magnitude, 0.0);
         let terms = progress.scale + forces;
-        let is_closed = self.prescribed.moved.is_empty()
-            && progress.defect.abs() <= FROZEN * f64::EPSILON * terms;
+        let is_closed = progress.defect.abs() <= FROZEN * f64::EPSILON * terms;
         if is_closed {
             progress.values = forces;
             progress.is_closed = true;
         }
         is_closed
     }
+}
 
+impl<const D: usize> Explicit<D> {
     /// Closed if the remaining defect, or what this step adds to it, is rounding, failed otherwise.
     pub(super) fn unless_rounding(&mut self, index: usize, view: &ExplicitView<'_, D>) -> Status {
         let mut progress = self.scratch.progress[index];
@@ -96,19 +97,19 @@ impl<const D: usize> Explicit<D> {
     /// The defect of the energy of a component at the start of the step, J.
     #[cold]
     fn debt(&mut self, index: usize, start: &State) -> f64 {
-        let (motion, energy) = (self.scratch.motions[index], self.scratch.energies[index]);
+        let (motion, energy) = (self.motions[index], self.scratch.energies[index]);
         self.swap_start(index);
         self.look_at_motion(index);
         self.swap_start(index);
-        let mut inner = ComponentEnergy::none();
+        let mut inner = ComponentEnergy::default();
         for energy in self.components.energies_in(start, index) {
             inner.add(energy);
         }
         self.scratch.energies[index] = inner;
-        swap(&mut self.books, &mut self.old_books);
-        let [debt, _] = self.defect_of(index);
-        swap(&mut self.books, &mut self.old_books);
-        (self.scratch.motions[index], self.scratch.energies[index]) = (motion, energy);
+        self.accounts.swap_books();
+        let [debt, _] = self.defect_of(index, &self.motions[index].energy);
+        self.accounts.swap_books();
+        (self.motions[index], self.scratch.energies[index]) = (motion, energy);
         debt
     }
 
@@ -131,8 +132,8 @@ impl<const D: usize> Explicit<D> {
     fn granularity(&self, index: usize) -> f64 {
         let mut sum = 0.0;
         for at in self.components.all[index].masses.clone() {
-            let q = self.stage.places[at].q();
-            for (force, q) in self.scratch.forces[at].iter().zip(q) {
+            let q = self.places[at].q();
+            for (force, q) in self.forces[at].iter().zip(q) {
                 sum += (force * q).abs();
             }
         }
@@ -150,7 +151,7 @@ impl<const D: usize> Explicit<D> {
         for energy in self.components.energies_in(view.state, index) {
             sum += energy.excess;
         }
-        for (at, place) in self.stage.places.iter().enumerate() {
+        for (at, place) in self.places.iter().enumerate() {
             if self.components.of_place[at] != index {
                 continue;
             }
@@ -182,12 +183,12 @@ impl<const D: usize> Explicit<D> {
         let length = |vector: &[f64; D]| dot(vector, vector).sqrt();
         let mut sum = 0.0;
         for at in self.components.all[index].masses.clone() {
-            let (place, node) = (&self.stage.places[at], self.components.nodes[at]);
+            let (place, node) = (&self.places[at], self.components.nodes[at]);
             let impulse = self.rounding.at(node).impulse;
             let momenta = length(&place.past.start[1]) + length(place.p()) + impulse;
             sum += impulse * momenta * place.per_mass();
             // The force of the springs is that on the mass less the constant one.
-            let force = length(&self.scratch.forces[at]) + length(&place.force);
+            let force = length(&self.forces[at]) + length(&place.force);
             sum += force * self.rounding.at(node).pull;
         }
         sum
@@ -199,7 +200,8 @@ impl<const D: usize> Explicit<D> {
             return;
         }
         self.scratch.has_stiffnesses = true;
-        let (sums, pulls) = (&mut self.scratch.stiffnesses, &mut self.scratch.pulls);
+        let scratch = &mut self.accounts.scratch;
+        let (sums, pulls) = (&mut scratch.stiffnesses, &mut scratch.pulls);
         sums.fill(0.0);
         let positions = points::<D>(view.state.positions.values());
         for group in &self.groups {

@@ -1,5 +1,6 @@
 //! Corrections of the energy by motion, by shape and, as a last resort, by entropy.
 
+use super::super::accounts::Accounts;
 use super::super::components::{Component, Support};
 use super::super::demand::Demand;
 use super::super::{Explicit, ExplicitView};
@@ -37,86 +38,7 @@ struct Means<const D: usize> {
     drift: [f64; D],
 }
 
-impl<const D: usize> Explicit<D> {
-    /// Corrects the energy of a component by other means than heat.
-    pub(super) fn reshape(
-        &mut self,
-        index: usize,
-        (view, demand): (&ExplicitView<'_, D>, Demand),
-        next: &mut State,
-    ) -> Status {
-        self.scratch.progress[index].present = None;
-        let progress = self.scratch.progress[index];
-        let (defect, iterations) = (progress.defect, progress.iterations);
-        if !defect.is_finite() {
-            return Status::Failed;
-        }
-        let means = self.means(index, view);
-        let share = defect / means.all;
-        if share.abs() > demand.largest_change() && self.leave_rounding(index) {
-            return Status::Closed;
-        }
-        let is_small = share.abs() < LARGEST_PART;
-        let moves =
-            LEAST_MOTION * means.all <= means.motion + means.motion && -means.motion < defect;
-        let rest = REST_OF_HEAT * means.motion;
-        let is_rest = progress.has_heated && defect.abs() <= rest;
-        if means.motion > 0.0 && (is_rest || (is_small && moves)) {
-            let x = defect / means.motion;
-            let part = x / (1.0 + (1.0 + x).sqrt());
-            // p += a p_int
-            for place in self.components.all[index].masses.clone() {
-                let own = self.inner_momentum(place, &means.rigid);
-                add(&mut self.stage.places[place].now[1], part, &own);
-            }
-            self.look_at_motion(index);
-            let progress = &mut self.scratch.progress[index];
-            progress.moved += part.abs();
-            progress.is_closed = true;
-            return Status::Closed;
-        }
-        if is_small && iterations < MOST_ITERATIONS && iterations <= SHAPE_ITERATIONS {
-            self.shift(index, (view, &means), share, next);
-            self.restore_momenta(index);
-            return Status::Changed;
-        }
-        if iterations < MOST_ITERATIONS && self.sink(index, defect, next) {
-            return Status::Changed;
-        }
-        self.unless_rounding(index, view)
-    }
-
-    fn means(&self, index: usize, view: &ExplicitView<'_, D>) -> Means<D> {
-        let (component, h) = (&self.components.all[index], view.step);
-        let rigid = self.rigid(index);
-        let forces = &self.scratch.forces;
-        let mut drift = [0.0; D];
-        if component.support == Support::Free {
-            for place in component.masses.clone() {
-                add(&mut drift, component.mass.recip(), &forces[place]);
-            }
-        }
-        let mut means = Means {
-            rigid,
-            motion: 0.0,
-            all: 0.0,
-            drift,
-        };
-        let mut shape = 0.0;
-        for place in component.masses.clone() {
-            let own = self.inner_momentum(place, &rigid);
-            let force = self.inner_force(place, &means);
-            let per_mass = self.stage.places[place].per_mass();
-            means.motion += 0.5 * dot(&own, &own) * per_mass;
-            shape += dot(&force, &force) * per_mass;
-        }
-        means.all = means.motion + means.motion + h * h * shape;
-        let dashpots = self.components.dashpots_of(index);
-        let creep = dashpots.fold(0.0, |sum, dashpot| sum + self.scratch.creep[dashpot][1]);
-        means.all += h * creep + self.exchange(component, h);
-        means
-    }
-
+impl Accounts {
     /// `Σ 2hκ(Δθ)²/(θ_a + θ_b)` of the paths without a thermostat at an end, J.
     fn exchange(&self, component: &Component, h: f64) -> f64 {
         let mut sum = 0.0;
@@ -134,54 +56,6 @@ impl<const D: usize> Explicit<D> {
 
     fn meets_thermostat(&self, ends: [usize; 2]) -> bool {
         ends.into_iter().any(|end| self.stage.is_held(end))
-    }
-
-    /// The momentum of a mass relative to the rigid motion.
-    fn inner_momentum(&self, place: usize, rigid: &Rigid<D>) -> [f64; D] {
-        let place = &self.stage.places[place];
-        let mut own = *place.p();
-        let arm = rigid.origin.arm(place.q());
-        add(&mut own, -place.mass, &rigid.velocity);
-        add(&mut own, -place.mass, &rigid.omega.turn(&arm));
-        own
-    }
-
-    /// The negative gradient of the energy at fixed momenta: the force less the centripetal force of the rotation and the
-    /// drift.
-    fn inner_force(&self, at: usize, means: &Means<D>) -> [f64; D] {
-        let (place, rigid) = (&self.stage.places[at], &means.rigid);
-        let arm = rigid.origin.arm(place.q());
-        let toward = rigid.omega.turn(&rigid.omega.turn(&arm));
-        let mut force = self.scratch.forces[at];
-        add(&mut force, -place.mass, &toward);
-        add(&mut force, -place.mass, &means.drift);
-        force
-    }
-
-    /// Moves positions, viscous stretches and heat along the gradient of the energy.
-    fn shift(
-        &mut self,
-        index: usize,
-        (view, means): (&ExplicitView<'_, D>, &Means<D>),
-        share: f64,
-        next: &mut State,
-    ) {
-        let h = view.step;
-        let progress = &mut self.scratch.progress[index];
-        progress.moved += share.abs();
-        progress.has_shifted = true;
-        for at in self.components.all[index].masses.clone() {
-            let own = self.inner_momentum(at, &means.rigid);
-            let force = self.inner_force(at, means);
-            let place = &mut self.stage.places[at];
-            let change = place.per_mass() * share * h * h;
-            add(&mut place.now[1], share, &own);
-            add(&mut place.now[0], -change, &force);
-        }
-        for dashpot in self.components.dashpots_of(index) {
-            self.stage.inner[dashpot] -= share * h * self.scratch.creep[dashpot][0];
-        }
-        self.exchange_heat(index, share * h, next);
     }
 
     /// Moves entropy from the warmer to the cooler end of each path, without production.
@@ -258,5 +132,137 @@ impl<const D: usize> Explicit<D> {
             self.heat(index, defect / produced, next);
         }
         takes
+    }
+}
+
+impl<const D: usize> Explicit<D> {
+    /// Corrects the energy of a component by other means than heat.
+    pub(super) fn reshape(
+        &mut self,
+        index: usize,
+        (view, demand): (&ExplicitView<'_, D>, Demand),
+        next: &mut State,
+    ) -> Status {
+        self.scratch.progress[index].present = None;
+        let progress = self.scratch.progress[index];
+        let (defect, iterations) = (progress.defect, progress.iterations);
+        if !defect.is_finite() {
+            return Status::Failed;
+        }
+        let means = self.means(index, view);
+        let share = defect / means.all;
+        if share.abs() > demand.largest_change()
+            && self.prescribed.moved.is_empty()
+            && self.leave_rounding(index)
+        {
+            return Status::Closed;
+        }
+        let is_small = share.abs() < LARGEST_PART;
+        let moves =
+            LEAST_MOTION * means.all <= means.motion + means.motion && -means.motion < defect;
+        let rest = REST_OF_HEAT * means.motion;
+        let is_rest = progress.has_heated && defect.abs() <= rest;
+        if means.motion > 0.0 && (is_rest || (is_small && moves)) {
+            let x = defect / means.motion;
+            let part = x / (1.0 + (1.0 + x).sqrt());
+            // p += a p_int
+            for place in self.components.all[index].masses.clone() {
+                let own = self.inner_momentum(place, &means.rigid);
+                add(&mut self.places[place].now[1], part, &own);
+            }
+            self.look_at_motion(index);
+            let progress = &mut self.scratch.progress[index];
+            progress.moved += part.abs();
+            progress.is_closed = true;
+            return Status::Closed;
+        }
+        if is_small && iterations < MOST_ITERATIONS && iterations <= SHAPE_ITERATIONS {
+            self.shift(index, (view, &means), share, next);
+            self.restore_momenta(index);
+            return Status::Changed;
+        }
+        if iterations < MOST_ITERATIONS && self.sink(index, defect, next) {
+            return Status::Changed;
+        }
+        self.unless_rounding(index, view)
+    }
+
+    fn means(&self, index: usize, view: &ExplicitView<'_, D>) -> Means<D> {
+        let (component, h) = (&self.components.all[index], view.step);
+        let rigid = self.rigid(index);
+        let forces = &self.forces;
+        let mut drift = [0.0; D];
+        if component.support == Support::Free {
+            for place in component.masses.clone() {
+                add(&mut drift, component.mass.recip(), &forces[place]);
+            }
+        }
+        let mut means = Means {
+            rigid,
+            motion: 0.0,
+            all: 0.0,
+            drift,
+        };
+        let mut shape = 0.0;
+        for place in component.masses.clone() {
+            let own = self.inner_momentum(place, &rigid);
+            let force = self.inner_force(place, &means);
+            let per_mass = self.places[place].per_mass();
+            means.motion += 0.5 * dot(&own, &own) * per_mass;
+            shape += dot(&force, &force) * per_mass;
+        }
+        means.all = means.motion + means.motion + h * h * shape;
+        let dashpots = self.components.dashpots_of(index);
+        let creep = dashpots.fold(0.0, |sum, dashpot| sum + self.scratch.creep[dashpot][1]);
+        means.all += h * creep + self.exchange(component, h);
+        means
+    }
+
+    /// The momentum of a mass relative to the rigid motion.
+    fn inner_momentum(&self, place: usize, rigid: &Rigid<D>) -> [f64; D] {
+        let place = &self.places[place];
+        let mut own = *place.p();
+        let arm = rigid.origin.arm(place.q());
+        add(&mut own, -place.mass, &rigid.velocity);
+        add(&mut own, -place.mass, &rigid.omega.turn(&arm));
+        own
+    }
+
+    /// The negative gradient of the energy at fixed momenta: the force less the centripetal force of the rotation and the
+    /// drift.
+    fn inner_force(&self, at: usize, means: &Means<D>) -> [f64; D] {
+        let (place, rigid) = (&self.places[at], &means.rigid);
+        let arm = rigid.origin.arm(place.q());
+        let toward = rigid.omega.turn(&rigid.omega.turn(&arm));
+        let mut force = self.forces[at];
+        add(&mut force, -place.mass, &toward);
+        add(&mut force, -place.mass, &means.drift);
+        force
+    }
+
+    /// Moves positions, viscous stretches and heat along the gradient of the energy.
+    fn shift(
+        &mut self,
+        index: usize,
+        (view, means): (&ExplicitView<'_, D>, &Means<D>),
+        share: f64,
+        next: &mut State,
+    ) {
+        let h = view.step;
+        let progress = &mut self.scratch.progress[index];
+        progress.moved += share.abs();
+        progress.has_shifted = true;
+        for at in self.components.all[index].masses.clone() {
+            let own = self.inner_momentum(at, &means.rigid);
+            let force = self.inner_force(at, means);
+            let place = &mut self.places[at];
+            let change = place.per_mass() * share * h * h;
+            add(&mut place.now[1], share, &own);
+            add(&mut place.now[0], -change, &force);
+        }
+        for dashpot in self.accounts.components.dashpots_of(index) {
+            self.accounts.stage.inner[dashpot] -= share * h * self.scratch.creep[dashpot][0];
+        }
+        self.exchange_heat(index, share * h, next);
     }
 }
