@@ -89,7 +89,8 @@ impl Law {
         if const { 1 <= D && D <= 3 } {
             let all: [&dyn Any; 3] = [&LINE, &PLANE, &SPACE];
             let own: Option<&AddSpring<D>> = all[D - 1].downcast_ref();
-            return own.expect("one for each dimension")(self, scene, nodes);
+            let own = own.unwrap_or_else(|| unreachable!("there is one for each dimension"));
+            return own(self, scene, nodes);
         }
         add_spring(self, scene, nodes)
     }

@@ -134,9 +134,9 @@ impl<A: Arrays> Ahead<A> {
         has_tangent: bool,
     ) -> bool {
         let mut kept: [&[f64]; MOST_TOGETHER] = [&[]; MOST_TOGETHER];
-        for index in 0..count {
+        for (index, kept) in kept.iter_mut().enumerate().take(count) {
             self.corners[index] = point(index).corners;
-            kept[index] = point(index).start.kept();
+            *kept = point(index).start.kept();
         }
         let (x1, kept) = (&self.x[..count], &kept[..count]);
         let corners = &mut self.corners[..count];
