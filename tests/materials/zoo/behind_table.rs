@@ -188,7 +188,9 @@ impl<A: Arrays> FreeEnergy<f64> for Behind<A> {
         x1: &A::Variables,
         weights: &A::Response,
     ) -> Parameters {
-        self.by_parameters(|found| self.0.temperature_form_adjoint([x0, x1], weights, found))
+        self.by_parameters(|found| {
+            self.0.temperature_form_adjoint([x0, x1], weights, found);
+        })
     }
 
     fn temperature_form_tangent(
@@ -210,7 +212,7 @@ impl<A: Arrays> FreeEnergy<f64> for Behind<A> {
     ) -> Parameters {
         self.by_parameters(|found| {
             self.0
-                .entropy_form_adjoint([x0, x1], corners, weights, found)
+                .entropy_form_adjoint([x0, x1], corners, weights, found);
         })
     }
 
@@ -226,14 +228,20 @@ impl<A: Arrays> FreeEnergy<f64> for Behind<A> {
     }
 
     fn energy_by_parameters(&self, x: &A::Variables) -> Parameters {
-        self.by_parameters(|found| self.0.energy_by_parameters(x, found))
+        self.by_parameters(|found| {
+            self.0.energy_by_parameters(x, found);
+        })
     }
 
     fn viscosity_adjoint(&self, theta: f64, weights: &A::Viscosities) -> Parameters {
-        self.by_parameters(|found| self.0.viscosity_adjoint(theta, weights, found))
+        self.by_parameters(|found| {
+            self.0.viscosity_adjoint(theta, weights, found);
+        })
     }
 
     fn drag_adjoint(&self, theta: f64, weights: &A::Drag) -> Parameters {
-        self.by_parameters(|found| self.0.drag_adjoint(theta, weights, found))
+        self.by_parameters(|found| {
+            self.0.drag_adjoint(theta, weights, found);
+        })
     }
 }
