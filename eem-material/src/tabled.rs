@@ -14,9 +14,9 @@ pub struct Tabled<A: Arrays> {
     formulas: Box<dyn Formulas<A>>,
     has_constant_capacity: bool,
     is_thermal: bool,
-    dashpots: u8,
-    drags: u8,
-    viscous_strain: u8,
+    dashpots: u16,
+    drags: u16,
+    viscous_strain: u16,
 }
 
 impl<A: Arrays> Tabled<A> {
@@ -118,7 +118,8 @@ impl<A: Arrays> Tabled<A> {
     }
 }
 
-/// A number of dashpots in arrays with room, or of components of a viscous strain: at most eight.
-fn small(number: usize) -> u8 {
-    u8::try_from(number).unwrap_or(u8::MAX)
+/// A number of dashpots, or of components of a viscous strain.
+fn small(number: usize) -> u16 {
+    let small = u16::try_from(number);
+    small.unwrap_or_else(|_| unreachable!("a matrix with 2³² entries does not fit the memory"))
 }
