@@ -45,16 +45,16 @@ pub(crate) struct LeastScales {
     nodes: Box<[AtNode]>,
     /// The largest entries of all nodes.
     most: AtNode,
-    /// The moved anchors, in ascending order, with the masses that each pulls.
-    links: Vec<(usize, Pulled)>,
+    /// The sum of the stiffnesses between each moved anchor and a mass, N/m, in ascending order of both.
+    links: Vec<Link>,
     /// The ends of springs with dashpots in series.
     viscous: Box<[[u32; 2]]>,
     /// The largest κ/c of the elements at each reservoir, 1/s.
     exchanges: Box<[f64]>,
 }
 
-/// The nodes that a moved anchor pulls, with the sum of the stiffnesses between them, N/m.
-type Pulled = Vec<(u32, f64)>;
+/// A moved anchor and a mass that it pulls, with a stiffness between them, N/m.
+type Link = ([u32; 2], f64);
 
 /// What is around a node.
 #[derive(Clone, Copy, Debug, Default)]
@@ -177,9 +177,10 @@ impl LeastScales {
 
     /// The masses that a moved anchor pulls, with the stiffness between them, N/m.
     pub(crate) fn pulled_by(&self, anchor: usize) -> impl Iterator<Item = (usize, f64)> {
-        let own = self.links.binary_search_by_key(&anchor, |link| link.0);
-        let masses = own.map_or(&[][..], |link| &self.links[link].1).iter();
-        masses.map(|&(mass, stiffness)| (mass as usize, stiffness))
+        let first = (self.links).partition_point(|&([own, _], _)| (own as usize) < anchor);
+        let own = self.links[first..].iter();
+        let own = own.take_while(move |&&([own, _], _)| own as usize == anchor);
+        own.map(|&([_, mass], stiffness)| (mass as usize, stiffness))
     }
 }
 
@@ -193,7 +194,8 @@ struct Around<'a> {
     nodes: Vec<AtNode>,
     /// The sum of the dampers, N s/m, and the shortest length, m, at each node.
     held: Vec<[f64; 2]>,
-    links: Vec<(usize, Pulled)>,
+    /// One for each point of an element.
+    links: Vec<Link>,
     viscous: Vec<[u32; 2]>,
     exchanges: Box<[f64]>,
 }
@@ -205,10 +207,6 @@ impl<'a> Around<'a> {
         moved: &'a [usize],
     ) -> Self {
         let size = length(state.positions.values());
-        let mut links = Vec::with_capacity(moved.len());
-        for &anchor in moved {
-            links.push((anchor, Pulled::new()));
-        }
         Self {
             masses,
             conduction,
@@ -217,7 +215,7 @@ impl<'a> Around<'a> {
             rate: 0.0,
             nodes: vec![AtNode::default(); masses.len()],
             held: vec![[0.0, f64::MAX]; masses.len()],
-            links,
+            links: Vec::new(),
             viscous: Vec::new(),
             exchanges: vec![0.0; conduction.reservoirs.len()].into(),
         }
@@ -249,12 +247,12 @@ impl<'a> Around<'a> {
             *length = Scalar::minimum(*length, point.length);
         }
         for &anchor in point.nodes {
-            let Ok(link) = self.moved.binary_search(&(anchor as usize)) else {
+            if self.moved.binary_search(&(anchor as usize)).is_err() {
                 continue;
-            };
+            }
             for &node in point.nodes {
                 if self.masses.get(node as usize).is_some() {
-                    pull(&mut self.links[link].1, node, point.elastic);
+                    self.links.push(([anchor, node], point.elastic));
                 }
             }
         }
@@ -306,7 +304,7 @@ impl<'a> Around<'a> {
         LeastScales {
             size: self.size,
             rate: self.rate,
-            links: self.links,
+            links: added_up(self.links),
             viscous: self.viscous.into(),
             exchanges: self.exchanges,
             most,
@@ -315,13 +313,17 @@ impl<'a> Around<'a> {
     }
 }
 
-/// Adds a stiffness between a moved anchor and a mass, N/m.
-fn pull(masses: &mut Pulled, node: u32, stiffness: f64) {
-    let mut all = masses.iter_mut();
-    match all.find(|(mass, _)| *mass == node) {
-        Some((_, sum)) => *sum += stiffness,
-        None => masses.push((node, stiffness)),
-    }
+/// The links in ascending order, with one for each pair: the sum in the order of the elements.
+fn added_up(mut links: Vec<Link>) -> Vec<Link> {
+    links.sort_by_key(|&(pair, _)| pair);
+    links.dedup_by(|next, kept| {
+        let is_same = next.0 == kept.0;
+        if is_same {
+            kept.1 += next.1;
+        }
+        is_same
+    });
+    links
 }
 
 /// A step and its tolerance.
