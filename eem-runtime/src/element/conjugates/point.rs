@@ -80,7 +80,7 @@ impl PointRule {
 fn old_entropy<A: Arrays>(start: &Start<A>) -> f64 {
     match start.old {
         Kept::State(entropy) => entropy,
-        Kept::Entropy(_) | Kept::Temperature(_) => not_of_this_family(),
+        Kept::Exact(..) => not_of_this_family(),
     }
 }
 

@@ -14,43 +14,27 @@ pub(crate) struct Start<A: Arrays> {
     /// x⁰.
     pub(crate) x0: A::Variables,
     /// What the scheme keeps of the old state.
-    pub(crate) old: KeptOf<A>,
+    pub(crate) old: Kept<A::Kept>,
 }
 
 /// What a scheme keeps of the old state. It tells the form of the step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Kept<O> {
-    Entropy(O),
-    Temperature(O),
+    Exact(ExactForm, O),
     /// s⁰, J/K, for the classical schemes.
     State(f64),
 }
 
-/// The same for a model.
-pub(super) type KeptOf<A> = Kept<<A as Arrays>::Kept>;
-
 impl<O: Array<f64>> Kept<O> {
-    /// What the entropy form keeps; zeros if it was another one that kept something.
+    /// What a form keeps; zeros if it was another one that kept something.
     #[inline]
-    fn in_entropy(&mut self) -> &mut O {
-        if !matches!(self, Self::Entropy(_)) {
-            *self = Self::Entropy(O::filled(0.0));
+    fn in_form(&mut self, form: ExactForm) -> &mut O {
+        if !matches!(self, Self::Exact(own, _) if *own == form) {
+            *self = Self::Exact(form, O::filled(0.0));
         }
         match self {
-            Self::Entropy(old) => old,
-            Self::Temperature(_) | Self::State(_) => not_of_this_family(),
-        }
-    }
-
-    /// The same of the temperature form.
-    #[inline]
-    fn in_temperature(&mut self) -> &mut O {
-        if !matches!(self, Self::Temperature(_)) {
-            *self = Self::Temperature(O::filled(0.0));
-        }
-        match self {
-            Self::Temperature(old) => old,
-            Self::Entropy(_) | Self::State(_) => not_of_this_family(),
+            Self::Exact(_, old) => old,
+            Self::State(_) => not_of_this_family(),
         }
     }
 }
@@ -66,7 +50,6 @@ impl<A: Arrays> Start<A> {
 
     /// Stores what the scheme keeps of the old variables and the old entropy, once per step, and whether a thermostat prescribes
     /// the temperature.
-    // Each in its own place: one value for all forms would be copied as the largest one.
     #[inline]
     pub(crate) fn keep(
         &mut self,
@@ -77,10 +60,11 @@ impl<A: Arrays> Start<A> {
     ) {
         match scheme {
             OneSet::Exact(ExactForm::Entropy) if !is_prescribed => {
-                model.keep_for_entropy_form(&self.x0, self.old.in_entropy());
+                model.keep_for_entropy_form(&self.x0, self.old.in_form(ExactForm::Entropy));
             }
             OneSet::Exact(_) | OneSet::Damped => {
-                model.keep_for_temperature_form(&self.x0, self.old.in_temperature());
+                let old = self.old.in_form(ExactForm::Temperature);
+                model.keep_for_temperature_form(&self.x0, old);
             }
             OneSet::Point(_) => self.old = Kept::State(entropy),
         }
@@ -88,16 +72,13 @@ impl<A: Arrays> Start<A> {
 
     /// Room for what a form keeps.
     pub(crate) fn room_for(&mut self, form: ExactForm) -> &mut [f64] {
-        match form {
-            ExactForm::Entropy => self.old.in_entropy().as_mut(),
-            ExactForm::Temperature => self.old.in_temperature().as_mut(),
-        }
+        self.old.in_form(form).as_mut()
     }
 
     /// What the form keeps.
     pub(crate) fn kept(&self) -> &[f64] {
         match &self.old {
-            Kept::Entropy(old) | Kept::Temperature(old) => old.as_ref(),
+            Kept::Exact(_, old) => old.as_ref(),
             Kept::State(_) => not_of_this_family(),
         }
     }
@@ -111,7 +92,7 @@ impl<A: Arrays> Start<A> {
         corners: &mut A::Corners,
     ) -> Result<(), Infeasible> {
         match &self.old {
-            Kept::Entropy(old) if model.is_thermal() => {
+            Kept::Exact(ExactForm::Entropy, old) if model.is_thermal() => {
                 find_corners((model, [&self.x0, x]), old, corners)
             }
             _ => Ok(()),
@@ -131,8 +112,8 @@ impl<A: Arrays> Start<A> {
             return scheme.point_rule().respond(model, self, x);
         }
         match &self.old {
-            Kept::Entropy(old) => model.entropy_form(old, x, corners),
-            Kept::Temperature(old) => model.temperature_form(old, x),
+            Kept::Exact(ExactForm::Entropy, old) => model.entropy_form(old, x, corners),
+            Kept::Exact(ExactForm::Temperature, old) => model.temperature_form(old, x),
             Kept::State(_) => not_of_this_family(),
         }
     }
@@ -143,12 +124,12 @@ impl<A: Arrays> Start<A> {
     #[inline(never)]
     pub(crate) fn starting_form(&self, model: &Tabled<A>, x: &A::Variables) -> Option<Form<A>> {
         match self.old {
-            Kept::Entropy(_) => {
+            Kept::Exact(ExactForm::Entropy, _) => {
                 let mut old = A::Kept::filled(0.0);
                 model.keep_for_temperature_form(&self.x0, &mut old);
                 Some(model.temperature_form(&old, x))
             }
-            Kept::Temperature(_) | Kept::State(_) => None,
+            Kept::Exact(ExactForm::Temperature, _) | Kept::State(_) => None,
         }
     }
 
@@ -166,8 +147,8 @@ impl<A: Arrays> Start<A> {
             return scheme.point_rule().respond(model, self, x).0;
         }
         match &self.old {
-            Kept::Entropy(old) => model.entropy_form_response(old, x, corners),
-            Kept::Temperature(old) => model.temperature_form_response(old, x),
+            Kept::Exact(ExactForm::Entropy, old) => model.entropy_form_response(old, x, corners),
+            Kept::Exact(ExactForm::Temperature, old) => model.temperature_form_response(old, x),
             Kept::State(_) => not_of_this_family(),
         }
     }
@@ -184,8 +165,12 @@ impl<A: Arrays> Start<A> {
     ) {
         let ends = [&self.x0, x];
         match self.old {
-            Kept::Entropy(_) => model.entropy_form_adjoint(ends, corners, weights, found),
-            Kept::Temperature(_) => model.temperature_form_adjoint(ends, weights, found),
+            Kept::Exact(ExactForm::Entropy, _) => {
+                model.entropy_form_adjoint(ends, corners, weights, found);
+            }
+            Kept::Exact(ExactForm::Temperature, _) => {
+                model.temperature_form_adjoint(ends, weights, found);
+            }
             Kept::State(_) => not_of_this_family(),
         }
     }
@@ -201,8 +186,12 @@ impl<A: Arrays> Start<A> {
     ) -> A::Response {
         let ends = [&self.x0, x];
         match self.old {
-            Kept::Entropy(_) => model.entropy_form_tangent(ends, corners, direction),
-            Kept::Temperature(_) => model.temperature_form_tangent(ends, direction),
+            Kept::Exact(ExactForm::Entropy, _) => {
+                model.entropy_form_tangent(ends, corners, direction)
+            }
+            Kept::Exact(ExactForm::Temperature, _) => {
+                model.temperature_form_tangent(ends, direction)
+            }
             Kept::State(_) => not_of_this_family(),
         }
     }
