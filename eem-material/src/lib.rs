@@ -22,8 +22,7 @@ pub mod point_energy;
 pub mod tabled;
 mod together;
 mod values;
-#[doc(hidden)]
-pub mod with_room;
+mod with_room;
 
 pub use component_energy::ComponentEnergy;
 pub use describe::{Describe, Description};

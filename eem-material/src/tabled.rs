@@ -6,6 +6,7 @@ use core::ops::Deref;
 use crate::arrays::{Arrays, ArraysOf};
 use crate::formulas::Formulas;
 use crate::free_energy::{Array, Material};
+use crate::with_room::WithRoom;
 
 /// A material behind its table.
 ///
@@ -56,6 +57,24 @@ impl<A: Arrays> Tabled<A> {
             dashpots: small(facts.dashpots),
             drags: small(facts.drags),
             viscous_strain: small(facts.viscous_strain),
+        }
+    }
+}
+
+impl<A: Arrays> Tabled<A> {
+    /// Whether a material has these arrays, or as many or fewer variables, and these arrays room for fewer.
+    #[must_use]
+    pub const fn has_room_for<M: Material>() -> bool {
+        Self::HAS_ROOM && WithRoom::<M, A>::FITS
+    }
+
+    /// A material [for which there is room](Self::has_room_for).
+    #[must_use]
+    pub fn with_room<M: Material, P: Array<f64>>(material: M) -> Self {
+        if const { Self::is_for::<M>() } {
+            Self::new::<M, P>(material)
+        } else {
+            Self::new::<_, P>(WithRoom::<M, A>::new(material))
         }
     }
 }

@@ -14,7 +14,7 @@ use crate::arrays::Arrays;
 use crate::free_energy::{Array, Caloric, FreeEnergy, Material};
 
 /// A material in the arrays A.
-pub struct WithRoom<M, A> {
+pub(crate) struct WithRoom<M, A> {
     material: M,
     arrays: PhantomData<A>,
 }
@@ -40,14 +40,13 @@ fn moved<F: Array<f64>, T: Array<f64>>(from: &F, used: usize, unused: f64) -> T 
 
 impl<M: Material, A: Arrays> WithRoom<M, A> {
     /// Whether the arrays have room for a material.
-    pub const FITS: bool = M::MEASURES == A::MEASURES
+    pub(crate) const FITS: bool = M::MEASURES == A::MEASURES
         && !M::PER_VOLUME
         && M::DASHPOTS <= A::DASHPOTS
         && A::THERMAL
         && M::Drag::LEN <= A::Drag::LEN;
 
-    #[must_use]
-    pub fn new(material: M) -> Self {
+    pub(crate) fn new(material: M) -> Self {
         Self {
             material,
             arrays: PhantomData,

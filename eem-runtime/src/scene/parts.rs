@@ -15,7 +15,6 @@ use crate::scene::error::SceneError;
 use eem_material::arrays::{Arrays, ArraysOf};
 use eem_material::free_energy::Material;
 use eem_material::tabled::Tabled;
-use eem_material::with_room::WithRoom;
 
 /// The arrays of a spring with more variables than those that are compiled with this crate have room for.
 type Own<M> = ArraysOf<M, [f64; 1], [f64; 32]>;
@@ -62,36 +61,35 @@ impl<const D: usize> Scene<D> {
         let groups = Springs::get();
         // A branch that a constant rules out is not compiled.
         let at = if const { Tabled::<Elastic>::is_for::<M>() } {
+            let model = Tabled::new::<_, [f64; 1]>(model);
             self.push_spring::<M, Elastic>(element, model, groups.elastic)
         } else if const { Tabled::<Warm>::is_for::<M>() } {
+            let model = Tabled::new::<_, [f64; 1]>(model);
             self.push_spring::<M, Warm>(element, model, groups.warm)
         } else if const { Tabled::<Viscous>::is_for::<M>() } {
+            let model = Tabled::new::<_, [f64; 1]>(model);
             self.push_spring::<M, Viscous>(element, model, groups.viscous)
-        } else if const { Tabled::<Damped>::is_for::<M>() } {
+        } else if const { Tabled::<Damped>::has_room_for::<M>() } {
+            let model = Tabled::with_room::<_, [f64; 1]>(model);
             self.push_spring::<M, Damped>(element, model, groups.damped)
-        } else if const { Tabled::<ManyDashpots>::is_for::<M>() } {
-            self.push_spring::<M, ManyDashpots>(element, model, group_of::<ManyDashpots, D>)
-        } else if const { WithRoom::<M, Damped>::FITS } {
-            let model = WithRoom::<M, Damped>::new(model);
-            self.push_spring::<M, Damped>(element, model, groups.damped)
-        } else if const { WithRoom::<M, ManyDashpots>::FITS } {
-            let model = WithRoom::<M, ManyDashpots>::new(model);
+        } else if const { Tabled::<ManyDashpots>::has_room_for::<M>() } {
+            let model = Tabled::with_room::<_, [f64; 1]>(model);
             self.push_spring::<M, ManyDashpots>(element, model, group_of::<ManyDashpots, D>)
         } else {
+            let model = Tabled::new::<_, [f64; 1]>(model);
             self.push_spring::<M, Own<M>>(element, model, group_of::<Own<M>, D>)
         };
         self.push_element(&nodes, at);
         element
     }
 
-    /// Adds a spring of the material `M`, which is `model` or that with room, to its group; returns the indices of group and place.
+    /// Adds a spring of the material `M` to its group; returns the indices of group and place.
     fn push_spring<M: Material, A: Arrays>(
         &mut self,
         element: Element,
-        model: impl Material,
+        model: Tabled<A>,
         new: NewGroup<D>,
     ) -> [usize; 2] {
-        let model = Tabled::<A>::new::<_, [f64; 1]>(model);
         let new = || new(explicit::<M, A, D>);
         let (group, set) = self.set_of::<LooseElements<A, Stretch<D>, D>>(identity(&model), new);
         let place = set.points();

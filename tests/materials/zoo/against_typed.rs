@@ -7,7 +7,6 @@ use eem::{Array, FreeEnergy, Material};
 use eem_material::arrays::{Arrays, SpringArrays};
 use eem_material::free_energy::{ExactForm, MOST_TOGETHER, Steps};
 use eem_material::tabled::Tabled;
-use eem_material::with_room::WithRoom;
 
 use crate::zoo::behind_table::Behind;
 use crate::zoo::families;
@@ -376,8 +375,8 @@ fn behind_table<M: Material, A: Arrays>(model: &M, at: &At) -> Option<Results> {
     let model = model.duplicate();
     let tabled = if Tabled::<A>::is_for::<M>() {
         Tabled::<A>::new::<_, [f64; 1]>(model)
-    } else if WithRoom::<M, A>::FITS && A::Drag::LEN > 0 {
-        Tabled::<A>::new::<_, [f64; 1]>(WithRoom::<M, A>::new(model))
+    } else if Tabled::<A>::has_room_for::<M>() {
+        Tabled::<A>::with_room::<_, [f64; 1]>(model)
     } else {
         return None;
     };
