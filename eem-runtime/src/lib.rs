@@ -77,6 +77,9 @@ pub use eem_mesh::{LineFault, Msh, MshError};
 
 pub use algebra::memory::TooLarge;
 pub use element::error::StateError;
+#[cfg(not(test))]
+#[doc(hidden)]
+pub use element::group::springs::of_dimension;
 pub use element::handle::{Element, HeatPartner, HeatPath, Node, Reservoir};
 pub use element::kinematics;
 pub use element::kinematics::{SolidState, Strain, StrainEnergy};

@@ -1,8 +1,6 @@
 //! The shapes of springs, and the choice among them when a program runs.
 
-use core::any::Any;
-
-use eem_runtime::{Element, Node, Scene};
+use eem_runtime::{Element, Node, Scene, of_dimension};
 
 use crate::error::LawError;
 use crate::law::Law;
@@ -87,10 +85,8 @@ impl Law {
     ) -> Result<Element, LawError> {
         self.check_spring()?;
         if const { 1 <= D && D <= 3 } {
-            let all: [&dyn Any; 3] = [&LINE, &PLANE, &SPACE];
-            let own: Option<&AddSpring<D>> = all[D - 1].downcast_ref();
-            let own = own.unwrap_or_else(|| unreachable!("there is one for each dimension"));
-            return own(self, scene, nodes);
+            let add: &AddSpring<D> = of_dimension(D, [&LINE, &PLANE, &SPACE]);
+            return add(self, scene, nodes);
         }
         add_spring(self, scene, nodes)
     }

@@ -72,9 +72,14 @@ impl<const D: usize> Springs<D> {
 }
 
 /// The table of a dimension, one of those for one to three, by its own type.
+///
+/// # Panics
+///
+/// If that is not the type of the table.
 #[cfg(not(test))]
 #[inline]
-pub(crate) fn of_dimension<T: Any>(dimension: usize, tables: [&'static dyn Any; 3]) -> &'static T {
+#[must_use]
+pub fn of_dimension<T: Any>(dimension: usize, tables: [&'static dyn Any; 3]) -> &'static T {
     let table = tables[dimension - 1].downcast_ref();
     table.expect("the dimension is that of the table")
 }
