@@ -62,7 +62,7 @@ impl<A: Arrays> Tabled<A> {
 }
 
 impl<A: Arrays> Tabled<A> {
-    /// Whether a material has these arrays, or as many or fewer variables, and these arrays room for fewer.
+    /// Whether these arrays are for springs that may lack variables, and a material has no more variables than they.
     #[must_use]
     pub const fn has_room_for<M: Material>() -> bool {
         Self::HAS_ROOM && WithRoom::<M, A>::FITS

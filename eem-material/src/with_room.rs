@@ -24,8 +24,8 @@ const fn used<M: FreeEnergy<f64>>() -> usize {
     M::MEASURES + M::DASHPOTS
 }
 
-/// The numbers of an array of a material at their places in a larger one, or the other way round: the first `used` ones at the
-/// beginning, and as many as are beyond in both at the end; `unused` elsewhere.
+/// Copies an array of a material into a larger one, or back: the first `used` numbers to the beginning, those beyond (as many as both
+/// arrays have) to the end. The rest is `unused`.
 fn moved<F: Array<f64>, T: Array<f64>>(from: &F, used: usize, unused: f64) -> T {
     let mut to = T::filled(unused);
     for index in 0..used {
