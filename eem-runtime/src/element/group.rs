@@ -17,7 +17,6 @@ mod ahead;
 mod arms;
 mod audit;
 mod begin;
-mod build;
 mod certify;
 mod closing;
 mod condensed;
@@ -25,6 +24,7 @@ mod correct;
 mod damp;
 mod damping;
 mod element_group;
+mod elements;
 mod eliminate;
 mod evaluate;
 mod explicit;
@@ -35,6 +35,7 @@ mod kelvin_voigt;
 mod local;
 mod loose;
 mod member;
+mod model_points;
 mod modes;
 #[cfg(feature = "gradients")]
 mod past;
@@ -42,6 +43,7 @@ mod placed;
 mod point;
 #[cfg(feature = "gradients")]
 mod point_step;
+mod points;
 mod pose;
 #[cfg(feature = "gradients")]
 mod pull_back;
@@ -57,19 +59,17 @@ mod stages;
 mod stiffness;
 #[cfg(feature = "gradients")]
 mod terms;
-mod together;
 mod view;
 mod ways;
 
 pub(crate) use arms::points;
 pub(crate) use audit::Misfit;
-pub(crate) use build::identity;
 pub(crate) use explicit::{
     Caloric, ClosingView, Combination, ComponentEnergy, Past, Place, Stage, Thermostat,
     UnkeptEntropy, first_reservoir, is_met,
 };
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
-pub(crate) use loose::{LooseElements, Parts};
+pub(crate) use loose::{LooseElements, identity};
 #[cfg(feature = "gradients")]
 pub(crate) use point_step::{
     Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights,

@@ -91,10 +91,8 @@ impl<const D: usize> Scene<D> {
         new: NewGroup<D>,
     ) -> [usize; 2] {
         let new = || new(explicit::<M, A, D>);
-        let (group, set) = self.set_of::<LooseElements<A, Stretch<D>, D>>(identity(&model), new);
-        let place = set.points();
-        set.elements.push((element, [(model, Stretch)]));
-        [group, place]
+        let (group, set) = self.set_of::<LooseElements<Stretch<D>, D>>(identity(&model), new);
+        [group, set.push((element, [Stretch]), [model])]
     }
 
     /// The initial temperature of an element, K. Every element with a temperature needs one, also if a thermostat

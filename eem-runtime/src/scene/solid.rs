@@ -1,7 +1,7 @@
 //! Solids of a scene: nodes, quadrilaterals, viscous strains, and cells with their points and masses.
 
 use super::Scene;
-use crate::element::group::{ExplicitGroup, Loose, LooseElements, Parts, Placed, identity};
+use crate::element::group::{ExplicitGroup, Loose, LooseElements, Placed, identity};
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{
     Measure, Points, Quad4, QuadraticStrain, Shape, SolidPoint, Strain, StrainEnergy,
@@ -188,15 +188,12 @@ impl<const D: usize> Scene<D> {
         let (group, place) = match self.expect_cell::<H, N>(nodes, bulk, measures, points.as_ref())
         {
             Ok(cell) => {
-                let parts = H::PerPoint::from_fn(|at| {
-                    let point = cell.as_ref()[at];
+                let models = cell.as_ref().iter().map(|point| {
                     let energy = PointEnergy::new(model.at_point(), point.volume());
-                    (
-                        Tabled::<SolidArrays<M, N>>::new::<_, [f64; N]>(energy),
-                        point,
-                    )
+                    Tabled::<SolidArrays<M, N>>::new::<_, [f64; N]>(energy)
                 });
-                self.push_parts::<_, SolidPoint<H, N, D>>(first, parts)
+                let models: Vec<_> = models.collect();
+                self.push_parts::<_, SolidPoint<H, N, D>>((first, cell), models)
             }
             // The handles must be valid until the scene is checked.
             Err(errors) => {
@@ -213,15 +210,14 @@ impl<const D: usize> Scene<D> {
     /// Adds an element to the group of its material.
     fn push_parts<A: Arrays, K: QuadraticStrain<D>>(
         &mut self,
-        first: Element,
-        parts: Parts<A, K, D>,
+        element: (Element, K::PerPoint<K>),
+        models: Vec<Tabled<A>>,
     ) -> (usize, usize) {
-        let kind = identity(&parts.as_ref()[0].0);
-        let new = || -> Box<dyn Loose<D>> { Box::new(LooseElements::<A, K, D>::new(no_explicit)) };
-        let (group, set) = self.set_of::<LooseElements<A, K, D>>(kind, new);
-        let place = set.points();
-        set.elements.push((first, parts));
-        (group, place)
+        let kind = identity(&models[0]);
+        let new =
+            || -> Box<dyn Loose<D>> { Box::new(LooseElements::<K, D>::new::<A>(no_explicit)) };
+        let (group, set) = self.set_of::<LooseElements<K, D>>(kind, new);
+        (group, set.push(element, models))
     }
 
     /// The points of a cell, whose mass is added to its nodes. `Err(None)` if the error is already recorded.

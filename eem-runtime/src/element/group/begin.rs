@@ -1,14 +1,15 @@
 //! The old state of the elements, where a step and its trial start.
 
-use super::arms::spread;
-use super::member::Member;
-use super::placed::PlacedPoint;
+use super::arms::{measures_in, spread};
+use super::member::{Block, Member};
+use super::placed::{OfGroup, PlacedPoint};
 use super::point::{Point, grown, variables};
+use super::points::PointSet;
 use super::pose::Pose;
 use crate::element::conjugates::Family;
 use crate::element::error::StateError;
 use crate::element::group::view::{Before, Old, StepView};
-use crate::element::kinematics::{Kinematics, MeasureSet, Numbers};
+use crate::element::kinematics::{Kinematics, MeasureSet, Measures, Numbers};
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
@@ -28,56 +29,58 @@ pub(super) fn shorten<K: Kinematics<D>, const D: usize>(
     }
 }
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
-    /// Takes the old state, except what the scheme [keeps](Self::keep) of it.
+impl<K: Kinematics<D>, const D: usize> Block<K, dyn PointSet<K::Measures>, D> {
+    /// Takes the old state.
     #[inline]
     pub(super) fn begin<C: Family>(
         &mut self,
-        view: &StepView<'_>,
+        of: &OfGroup,
+        (view, by_factors): (&StepView<'_>, bool),
         old: &mut Old<'_, D>,
+        measures: &mut Vec<Measures<K, D>>,
     ) -> Result<(), StateError> {
-        let r0 = self.arms_in(view.state);
-        self.r0 = r0;
-        for point in self.points.as_mut() {
-            let measures = point.kinematics.measure(&r0);
-            point.begin::<C>(view, old.before.as_ref(), &measures);
-            let length = point.kinematics.length(&measures);
-            shorten::<K, D>(&self.site.nodes, length, old.lengths);
+        measures.clear();
+        for member in &mut self.members {
+            member.r0 = member.arms_in(view.state);
+            for point in member.points.as_mut() {
+                let own = point.kinematics.measure(&member.r0);
+                point.measures0 = own;
+                measures.push(own);
+                let length = point.kinematics.length(&own);
+                shorten::<K, D>(&member.site.nodes, length, old.lengths);
+            }
         }
-        if C::implicit(self.scheme()) < 1.0 {
-            self.take_old_share(view, old.force)?;
+        (self.points).begin(view, (old.before.as_ref(), by_factors), measures);
+        if C::implicit(of.scheme) < 1.0 {
+            self.take_old_share(of, view, old.force)?;
         }
         Ok(())
-    }
-
-    /// Stores what the scheme keeps of the old state.
-    #[inline]
-    pub(super) fn keep(&mut self, view: &StepView<'_>) {
-        for point in self.points.as_mut() {
-            point.keep_old(view);
-        }
     }
 
     /// Finds the part of rates and nodal forces that the scheme takes from the old state.
     fn take_old_share(
         &mut self,
+        of: &OfGroup,
         view: &StepView<'_>,
         old_force: &mut [[f64; D]],
     ) -> Result<(), StateError> {
-        let velocities = self.old_velocities(view);
-        let share = 1.0 - self.scheme().implicit();
-        for point in self.points.as_mut() {
-            let measures0 = point.old_measures();
-            let by_arm = point.kinematics.gradient(&self.r0, &measures0);
-            let rates = PlacedPoint::<A, K, D>::rates_along(&by_arm, &velocities);
-            let gradient = point.take_old_share(view, &rates)?;
-            let ends = [&self.r0, &self.r0];
-            let pose = Pose::between(&point.kinematics, point.scheme.placement(), ends, measures0);
-            for (a, row) in pose.direction.as_ref().iter().enumerate() {
-                let by_node = spread::<K, D>(row);
-                for (entry, &node) in by_node.as_ref().iter().zip(self.site.nodes.as_ref()) {
-                    for (force, &entry) in old_force[node as usize].iter_mut().zip(entry) {
-                        *force += share * gradient[a] * entry;
+        let (at, share) = (of.scheme.placement(), 1.0 - of.scheme.implicit());
+        let firsts = (0..).step_by(Member::<K, D>::POINTS);
+        for (first, member) in firsts.zip(&self.members) {
+            let velocities = member.old_velocities(view);
+            for (index, point) in (first..).zip(member.points.as_ref()) {
+                let by_arm = point.kinematics.gradient(&member.r0, &point.measures0);
+                let rates = PlacedPoint::<K, D>::rates_along(&by_arm, &velocities);
+                let forces = self.points.take_old_share(index, view, &rates)?;
+                let ends = [&member.r0, &member.r0];
+                let pose = Pose::between(&point.kinematics, at, ends, point.measures0);
+                for (row, &force) in pose.direction.as_ref().iter().zip(forces.as_ref()) {
+                    let by_node = spread::<K, D>(row);
+                    let nodes = member.site.nodes.as_ref();
+                    for (entry, &node) in by_node.as_ref().iter().zip(nodes) {
+                        for (sum, &entry) in old_force[node as usize].iter_mut().zip(entry) {
+                            *sum += share * force * entry;
+                        }
                     }
                 }
             }
@@ -125,7 +128,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
 
     /// Stores what the scheme keeps of the old state.
     #[inline]
-    fn keep_old(&mut self, view: &StepView<'_>) {
+    pub(super) fn keep_old(&mut self, view: &StepView<'_>) {
         let slot = self.slots().thermal;
         let entropy = slot.map_or(0.0, |slot| view.state.entropies.values()[slot]);
         (self.start).keep(self.scheme, &self.model, entropy, self.is_prescribed);
@@ -150,11 +153,11 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     }
 
     /// Finds the part of the rates that the scheme takes from the old state, given `π̇⁰`; returns the old gradient.
-    fn take_old_share(
+    pub(super) fn take_old_share(
         &mut self,
         view: &StepView<'_>,
         speeds: &Numbers<Q>,
-    ) -> Result<A::Variables, StateError> {
+    ) -> Result<Numbers<Q>, StateError> {
         let share = 1.0 - self.scheme.implicit();
         let x0 = self.start.x0;
         let theta = x0[Self::VARIABLES - 1];
@@ -181,7 +184,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
         if self.is_thermal() && self.scheme.is_in_temperature() {
             self.find_old_heating(speeds, heat / theta);
         }
-        Ok(gradient)
+        Ok(measures_in::<Q>(&gradient))
     }
 
     /// Finds `(1 − w) θ̇⁰`, which a scheme in temperature uses instead of `(1 − w) ṡ⁰`.

@@ -1,23 +1,23 @@
 //! The contribution of the elements to the certificate of a step.
 
-use super::arms::measures_in;
 use super::member::Member;
-use super::placed::PlacedPoint;
 use super::point::Point;
+use super::points::PointSet;
 use super::site::HeatPath;
 use crate::element::balances::Received;
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::{Any, Family};
 use crate::element::group::view::StepView;
-use crate::element::kinematics::{Arms, Kinematics, MeasureSet};
+use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Numbers};
 use crate::element::state::Energy;
 use crate::element::tally::{Care, Tally};
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
-    /// Adds the magnitude of the terms of `h F` to that of the nodes, N s, given the new arms and their change:
+impl<K: Kinematics<D>, const D: usize> Member<K, D> {
+    /// Adds the magnitude of the terms of `h F` to that of the nodes, N s, given the new arms, their change, and the points with the index of
+    /// its first one:
     ///
     /// ```text
     /// h Σ_π (|∂²π/∂r²| |r| |f*| + |∂π/∂r| Σ |∂f*/∂x_j| |x_j|) (1 + |Δr|/ℓ)
@@ -27,16 +27,23 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
         &self,
         h: f64,
         [r1, change]: [&Arms<K, D>; 2],
+        (points, first): (&dyn PointSet<K::Measures>, usize),
         magnitudes: &mut [f64],
     ) {
-        let mut largest = 0.0;
+        let mut motion = 0.0;
         for arm in change.as_ref() {
             for component in arm {
-                largest = Scalar::maximum(largest, component.abs());
+                motion = Scalar::maximum(motion, component.abs());
             }
         }
-        for point in self.points.as_ref() {
-            let magnitude = h * point.magnitude_of_pull(r1, largest);
+        for (index, point) in (first..).zip(self.points.as_ref()) {
+            let (kinematics, old, new) = (&point.kinematics, &point.measures0, &point.measures);
+            let sizes = kinematics.sizes(r1, new);
+            let slopes = kinematics.slopes(r1, new);
+            let slope_sizes = kinematics.slope_sizes(r1, new);
+            let sum = points.magnitude_of_pull(index, [&sizes, &slopes, &slope_sizes]);
+            let length = |measures| kinematics.length(measures);
+            let magnitude = h * (sum * (1.0 + motion / Scalar::minimum(length(old), length(new))));
             for &node in self.site.nodes.as_ref() {
                 magnitudes[node as usize] += magnitude;
             }
@@ -44,81 +51,57 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     }
 }
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
-    /// See [`sizes`].
-    #[inline]
-    pub(super) fn sizes(&self, r: &Arms<K, D>, x: &A::Variables) -> A::Variables {
-        sizes(&self.kinematics, r, x)
-    }
-
-    /// A bound of the force between its nodes, `Σ |∂π/∂r| |f*|`, N.
-    #[inline]
-    pub(super) fn largest_pull<C: Family>(&self, r1: &Arms<K, D>) -> f64 {
-        let slopes = self
-            .kinematics
-            .slopes(r1, &measures_in::<K::Measures>(&self.x));
-        let forces = self.pulls::<C>();
-        let forces = forces.as_ref().iter().zip(slopes.as_ref());
-        forces.fold(0.0, |sum, (&force, &slope)| sum + slope * force.abs())
-    }
-
-    fn magnitude_of_pull(&self, r1: &Arms<K, D>, motion: f64) -> f64 {
-        let sizes = self.sizes(r1, &self.x);
-        let (old, new) = (self.old_measures(), measures_in::<K::Measures>(&self.x));
-        let slopes = self.kinematics.slopes(r1, &new);
-        let slope_sizes = self.kinematics.slope_sizes(r1, &new);
-        let mut sum = 0.0;
-        for a in 0..A::MEASURES {
-            sum += slope_sizes[a] * self.pull_of_row::<Any>(a).abs();
-            sum += slopes[a] * self.resolution_of_row(a, &sizes);
-        }
-        let length = |measures| self.kinematics.length(measures);
-        sum * (1.0 + motion / Scalar::minimum(length(&old), length(&new)))
-    }
-
-    /// Adds the terms that the bound of the next step needs of a state with these arms: those of the forces and, except
-    /// for schemes with discrete derivatives, those of the value of the energy.
-    #[cold]
-    pub(super) fn add_bounds(&self, r: &Arms<K, D>, x: &A::Variables, energy: &mut Energy) {
-        let gradient = self.model.gradient(x);
-        let forces = &gradient.as_ref()[..Self::TEMPERATURE];
-        energy.add_forces(work_of(&self.kinematics, forces, r, x));
-        if !self.scheme.is_exact() {
-            energy.add_values(self.model.energy_magnitude(x));
-        }
-    }
-}
-
-/// The magnitudes of the terms of the variables in a state with these arms: times ε, their errors by rounding.
+/// The magnitudes of the terms of the variables: times ε, their errors by rounding. Those of the measures are given.
 #[inline]
-fn sizes<K: Kinematics<D>, X: Array<f64>, const D: usize>(
-    kinematics: &K,
-    r: &Arms<K, D>,
-    x: &X,
-) -> X {
+pub(super) fn sizes_of<X: Array<f64>>(measures: &[f64], x: &X) -> X {
     let mut sizes = *x;
-    let own = kinematics.sizes(r, &measures_in::<K::Measures>(x));
-    for (a, &size) in own.as_ref().iter().enumerate() {
+    for (a, &size) in measures.iter().enumerate() {
         sizes[a] = size;
     }
     sizes
 }
 
-/// `Σ|f||π| + Σ|g||γ|` of forces in a state with these arms, J.
+/// `Σ|f||π| + Σ|g||γ|` of forces in a state, J, given the sizes of the measures.
 #[inline]
-pub(super) fn work_of<K: Kinematics<D>, X: Array<f64>, const D: usize>(
-    kinematics: &K,
-    forces: &[f64],
-    r: &Arms<K, D>,
-    x: &X,
-) -> f64 {
-    let sizes = sizes(kinematics, r, x);
+pub(super) fn work_of<X: Array<f64>>(forces: &[f64], measures: &[f64], x: &X) -> f64 {
+    let sizes = sizes_of(measures, x);
     let terms = forces.iter().zip(sizes.as_ref());
     terms.fold(0.0, |sum, (&force, &size)| sum + (force * size).abs())
 }
 
 /// Magnitudes of the terms of variables and responses, and the checks of a point by the certificate.
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
+    /// A bound of the force between its nodes, `Σ |∂π/∂r| |f*|`, N.
+    #[inline]
+    pub(super) fn largest_pull<C: Family>(&self, slopes: &Numbers<Q>) -> f64 {
+        let forces = self.pulls::<C>();
+        let forces = forces.as_ref().iter().zip(slopes.as_ref());
+        forces.fold(0.0, |sum, (&force, &slope)| sum + slope * force.abs())
+    }
+
+    /// See [`PointSet::magnitude_of_pull`].
+    pub(super) fn magnitude_of_pull(&self, [sizes, slopes, slope_sizes]: [&Numbers<Q>; 3]) -> f64 {
+        let sizes = sizes_of(sizes.as_ref(), &self.x);
+        let mut sum = 0.0;
+        for a in 0..A::MEASURES {
+            sum += slope_sizes[a] * self.pull_of_row::<Any>(a).abs();
+            sum += slopes[a] * self.resolution_of_row(a, &sizes);
+        }
+        sum
+    }
+
+    /// Adds the terms that the bound of the next step needs of a state: those of the forces and, except for schemes with discrete
+    /// derivatives, those of the value of the energy.
+    #[cold]
+    pub(super) fn add_bounds(&self, sizes: &Numbers<Q>, x: &A::Variables, energy: &mut Energy) {
+        let gradient = self.model.gradient(x);
+        let forces = &gradient.as_ref()[..Self::TEMPERATURE];
+        energy.add_forces(work_of(forces, sizes.as_ref(), x));
+        if !self.scheme.is_exact() {
+            energy.add_values(self.model.energy_magnitude(x));
+        }
+    }
+
     /// `Σ_j |T_ij| |x_j|`: times ε, the error of a response by rounding of the variables.
     fn magnitude_of_row(&self, row: usize, sizes: &A::Variables) -> f64 {
         let terms = self.slopes[row].as_ref().iter().zip(sizes.as_ref());

@@ -8,44 +8,145 @@
 //! with the exchange `u` and the production `P ≥ 0` of every path of heat, see
 //! [`conduction`](crate::element::conduction). Both ends of a path use the same numbers.
 
-use super::arms::{mean, measures_in, spread};
-use super::member::Member;
-use super::placed::PlacedPoint;
+use super::arms::{add_scaled, change_in, mean, spread};
+use super::evaluate::{At, for_points};
+use super::member::{Block, Member};
+use super::placed::{OfGroup, PlacedPoint};
 use super::point::Point;
+use super::points::{PointEnd, PointSet};
 use super::pose::Pose;
-use super::site::{Contact, HeatPath, paths_of};
+use super::share::Contacts;
+use super::site::HeatPath;
 use super::ways::way_of_nodes;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::conduction::{InterfaceTemperatures, Partner};
-use crate::element::conjugates::{Any, Family, Placement};
+use crate::element::conjugates::{Family, Placement};
 use crate::element::error::StateError;
-use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Weights};
+use crate::element::group::view::{Along, StepView};
+use crate::element::impulse::Impulses;
+use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Measures, Weights};
 use crate::element::state::State;
 use crate::element::tally::{Care, Tally};
 use eem_material::arrays::Arrays;
-use eem_material::free_energy::{Array, Caloric};
+use eem_material::free_energy::Array;
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
-    /// The nodal forces of the last responses along the gradient between two configurations, N.
-    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, D>; 2]) -> K::PerNode<[f64; D]> {
+impl<K: Kinematics<D>, const D: usize> Block<K, dyn PointSet<K::Measures>, D> {
+    /// Adds the impulses of the last responses, and the magnitudes of their terms if they are asked for.
+    #[inline]
+    pub(super) fn add_impulse(
+        &self,
+        of: &OfGroup,
+        (view, trial): At<'_, D>,
+        along: Along,
+        all_forces: &mut [Measures<K, D>],
+        (impulses, magnitudes): (&mut Impulses<'_, D>, &mut [f64]),
+    ) {
+        let at = match along {
+            Along::Secant => None,
+            Along::Scheme => Some(of.scheme.placement()),
+            Along::Gradient => Some(Placement::End),
+            Along::Stage(_) => return,
+        };
+        self.points.pulls(all_forces);
+        for (first, member) in self.elements() {
+            let forces = &all_forces[first..first + Member::<K, D>::POINTS];
+            let nodes = &member.site.nodes;
+            let change = change_in::<K, D>(nodes, trial);
+            let mut r1 = change;
+            add_scaled::<K, D>(&mut r1, 1.0, &member.r0);
+            if !magnitudes.is_empty() {
+                let points = (&*self.points, first);
+                member.add_magnitude(view.step, [&r1, &change], points, magnitudes);
+            }
+            let ends = [&member.r0, &r1];
+            let (h, force) = if let Some(at) = at {
+                let share = view.step * of.scheme.implicit();
+                (share, member.force(at, ends, forces))
+            } else {
+                let mut mean = change;
+                let old = member.r0.as_ref().as_flattened();
+                for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
+                    *mean = old + 0.5 * *mean;
+                }
+                (view.step, member.pull(of, ends, &mean, forces))
+            };
+            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
+                for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
+                    *impulse -= h * force;
+                }
+            }
+        }
+    }
+
+    /// Books the step, finds the new temperatures and energies, and judges the step.
+    #[inline]
+    pub(super) fn close(
+        &mut self,
+        of: &OfGroup,
+        at: At<'_, D>,
+        contacts: &Contacts<K, D>,
+        ends: &mut [PointEnd<K::Measures>],
+        (next, tally): (&mut State, &mut Tally),
+    ) -> Result<(), StateError> {
+        let (is_exact, mut count) = (of.scheme.is_exact(), 0);
+        let mut refusal = Ok(());
+        'all: for member in &self.members {
+            let r1 = member.arms_in(next);
+            let is_thorough = is_exact && matches!(tally.care, Care::Thorough);
+            for point in member.points.as_ref() {
+                let (kinematics, end) = (&point.kinematics, &mut ends[count]);
+                end.measures = kinematics.measure(&r1);
+                if !kinematics.is_admissible(&r1, &end.measures) {
+                    let (element, _) = self.points.place(count);
+                    refusal = Err(kinematics.refusal(element, &r1));
+                    break 'all;
+                }
+                if is_exact {
+                    end.sizes = [
+                        kinematics.sizes(&member.r0, &point.measures0),
+                        kinematics.sizes(&r1, &point.measures),
+                    ];
+                    end.slopes = kinematics.slopes(&r1, &point.measures);
+                }
+                if is_thorough {
+                    end.way = way_of_nodes(member.site.nodes.as_ref(), at.1);
+                }
+                count += 1;
+            }
+        }
+        let at = for_points(at, contacts);
+        self.points.close(&at, &ends[..count], next, tally)?;
+        refusal
+    }
+}
+
+impl<K: Kinematics<D>, const D: usize> Member<K, D> {
+    /// The nodal forces along the gradient between two configurations, N, given those of its points.
+    fn force(
+        &self,
+        at: Placement,
+        ends: [&Arms<K, D>; 2],
+        forces: &[Measures<K, D>],
+    ) -> K::PerNode<[f64; D]> {
         let mut sum = None;
-        for point in self.points.as_ref() {
-            sum_nodes::<K, D>(&mut sum, point.force(at, ends));
+        for (point, forces) in self.points.as_ref().iter().zip(forces) {
+            sum_nodes::<K, D>(&mut sum, point.force(at, ends, forces));
         }
         sum.unwrap_or_else(|| K::PerNode::filled([0.0; D]))
     }
 
-    /// The nodal forces of the last responses in the form `A r_m`, N.
+    /// The nodal forces in the form `A r_m`, N.
     #[inline]
-    pub(super) fn pull<C: Family>(
+    fn pull(
         &self,
+        of: &OfGroup,
         ends: [&Arms<K, D>; 2],
         mean: &Arms<K, D>,
+        forces: &[Measures<K, D>],
     ) -> K::PerNode<[f64; D]> {
         let mut sum: Option<Weights<K, D>> = None;
-        for point in self.points.as_ref() {
-            let own = point.secant::<C>(ends);
+        for (point, forces) in self.points.as_ref().iter().zip(forces) {
+            let own = point.secant(of.scheme.placement(), ends, forces);
             let Some(sum) = &mut sum else {
                 sum = Some(own);
                 continue;
@@ -60,54 +161,6 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
             Some(weights) => pull::<K, D>(&weights, mean),
             None => K::PerNode::filled([0.0; D]),
         }
-    }
-}
-
-impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
-    /// Books the step, recovers the new temperature and judges the step. The caloric quantities at the temperature of the
-    /// trial may be known.
-    #[expect(
-        clippy::inline_always,
-        reason = "a call costs 0.8 % of a step of a spring"
-    )]
-    #[inline(always)]
-    pub(super) fn close<C: Family>(
-        &mut self,
-        contacts: &[Contact<K, D>],
-        (view, trial): (&StepView<'_>, &Trial<D>),
-        next: &mut State,
-        tally: &mut Tally,
-        known: Option<&(Caloric<f64>, f64)>,
-    ) -> Result<(), StateError> {
-        let r1 = self.arms_in(next);
-        for point in self.points.as_mut() {
-            let paths = paths_of(point.contact_in(contacts));
-            let received = point.book::<C>(view, (paths, &trial.interface), next, tally);
-            let near = (point.x[A::Variables::LEN - 1], known);
-            let measures = point.admissible_measures(&r1)?;
-            if let Some(entropy) = point.recover_temperature::<C>(&measures, view, near, next)? {
-                point.book_thermostat(view, [entropy, received.entropy], next);
-            }
-            if C::is_exact(point.scheme) {
-                let sizes = [
-                    point.sizes(&self.r0, &point.start.x0),
-                    point.sizes(&r1, &point.x),
-                ];
-                let largest = point.largest_pull::<C>(&r1);
-                let nodes = self.site.nodes.as_ref();
-                let is_thorough = matches!(tally.care, Care::Thorough);
-                let of_sums = is_thorough.then(|| largest * way_of_nodes(nodes, trial));
-                let [forces, at_end] = point.amplitude::<C>(&sizes, of_sums);
-                tally.force(forces);
-                tally.exchange(view.step * largest);
-                let energy = &mut next.energies[point.element.index()];
-                energy.add_secants(at_end, point.is_thermal());
-                let terms = [energy.magnitude + forces, energy.heat_capacity];
-                let outside = (paths, &trial.interface);
-                point.judge::<C>(view, outside, &sizes[1], (received, terms), tally);
-            }
-        }
-        Ok(())
     }
 }
 
@@ -153,26 +206,32 @@ pub(super) fn pull_of_arms<K: Kinematics<D>, const D: usize>(
     force
 }
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
+impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
     /// The matrix A of the force `A r_m` at the last response.
     #[inline]
-    fn secant<C: Family>(&self, [r0, r1]: [&Arms<K, D>; 2]) -> Weights<K, D> {
-        let measures1 = measures_in::<K::Measures>(&self.x);
-        let (arms, measures0) = match C::placement(self.scheme) {
-            Placement::Middle => ([mean::<K, D>(r0, r1); 2], measures1),
-            Placement::Ends | Placement::End | Placement::Start => {
-                ([*r0, *r1], self.old_measures())
-            }
+    fn secant(
+        &self,
+        at: Placement,
+        [r0, r1]: [&Arms<K, D>; 2],
+        forces: &Measures<K, D>,
+    ) -> Weights<K, D> {
+        let (arms, measures0) = match at {
+            Placement::Middle => ([mean::<K, D>(r0, r1); 2], self.measures),
+            Placement::Ends | Placement::End | Placement::Start => ([*r0, *r1], self.measures0),
         };
-        let ends = Ends::new(&self.kinematics, arms, [measures0, measures1]);
-        self.kinematics.secant(&ends, &self.pulls::<C>())
+        let ends = Ends::new(&self.kinematics, arms, [measures0, self.measures]);
+        self.kinematics.secant(&ends, forces)
     }
 
     /// The nodal forces of the last response along the gradient between two configurations, N.
-    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, D>; 2]) -> K::PerNode<[f64; D]> {
-        let measures0 = self.old_measures();
-        let pose = Pose::between(&self.kinematics, at, ends, measures0);
-        spread::<K, D>(&pose.pull(&self.kinematics, at, &self.pulls::<Any>()))
+    fn force(
+        &self,
+        at: Placement,
+        ends: [&Arms<K, D>; 2],
+        forces: &Measures<K, D>,
+    ) -> K::PerNode<[f64; D]> {
+        let pose = Pose::between(&self.kinematics, at, ends, self.measures0);
+        spread::<K, D>(&pose.pull(&self.kinematics, at, forces))
     }
 }
 

@@ -7,10 +7,21 @@ use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// A response with the internal variables eliminated: `value + Σ_a by_measure_a δπ_a − by_heat δr_s`.
-pub(super) struct CondensedRow<Q: MeasureSet> {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CondensedRow<V> {
     pub(super) value: f64,
-    pub(super) by_measure: Numbers<Q>,
+    pub(super) by_measure: V,
     pub(super) by_heat: f64,
+}
+
+impl<V: Array<f64>> CondensedRow<V> {
+    pub(super) fn none() -> Self {
+        Self {
+            value: 0.0,
+            by_measure: V::filled(0.0),
+            by_heat: 0.0,
+        }
+    }
 }
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
@@ -20,8 +31,8 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
         row: usize,
         (response, tangent): &Form<A>,
         is_coupled: bool,
-    ) -> CondensedRow<Q> {
-        let mut condensed = CondensedRow::<Q> {
+    ) -> CondensedRow<Numbers<Q>> {
+        let mut condensed = CondensedRow {
             value: response[row],
             by_measure: Numbers::<Q>::filled(0.0),
             by_heat: 0.0,

@@ -1,55 +1,62 @@
 //! From the solution of the global system to the internal variables of the elements.
 
 use super::arms::along;
+use super::member::Block;
 use super::placed::PlacedPoint;
 use super::point::Point;
-use super::share::run;
-use super::site::{Contact, Site};
+use super::points::{Changes, PointSet};
+use super::share::{Contacts, run};
+use super::site::{HeatContact, Site};
 use crate::element::conjugates::Family;
-use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Numbers};
+use crate::element::kinematics::{Arms, Kinematics, MeasureSet};
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
-    /// Applies the corrections of the local unknowns for a motion of the arms; returns the largest in their units.
+impl<K: Kinematics<D>, const D: usize> Block<K, dyn PointSet<K::Measures>, D> {
+    /// Applies the corrections of the internal variables for a global solution; returns the largest in their units.
     #[inline]
-    pub(super) fn correct<C: Family>(
+    pub(super) fn correct(
         &mut self,
-        motion: &Arms<K, D>,
-        contact: Option<&Contact<K, D>>,
+        contacts: &Contacts<K, D>,
         solution: &[[f64; 1]],
-        by_factors: bool,
+        changes: &mut [Changes<K::Measures>],
     ) -> f64 {
-        let changes = Self::rates_along(&self.sensitivity, motion);
-        let mut heat = 0.0;
-        if self.is_thermal()
-            && let Some(contact) = contact
-        {
-            heat = self.condensed.heat_factor * contact.heat(solution);
+        let mut count = 0;
+        for member in &self.members {
+            let motion = member.site.motion_in(solution);
+            for point in member.points.as_ref() {
+                let own = &mut changes[count];
+                own.measures = PlacedPoint::<K, D>::rates_along(&point.sensitivity, &motion);
+                if let Some(by_increment) = &point.by_increment {
+                    own.heat = along::<K, D>(by_increment, &motion);
+                }
+                count += 1;
+            }
         }
-        if !C::IS_EXACT
-            && let Some(by_increment) = &self.by_increment
-        {
-            heat += along::<K, D>(by_increment, motion);
-        }
-        self.point
-            .correct::<C>(&changes, (heat, contact.is_some()), by_factors)
+        (self.points).correct(&changes[..count], &contacts.heat, solution)
     }
 }
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
-    /// Applies the corrections of the local unknowns, given the changes of the measures and `δr_s`; returns the largest in
-    /// their units.
+    /// Applies the corrections of the local unknowns; returns the largest in their units.
     #[inline]
-    fn correct<C: Family>(
+    pub(super) fn correct<C: Family>(
         &mut self,
-        changes: &Numbers<Q>,
-        (heat, is_coupled): (f64, bool),
+        changes: &Changes<Q>,
+        contact: Option<&HeatContact>,
+        solution: &[[f64; 1]],
         by_factors: bool,
     ) -> f64 {
+        let (mut heat, is_coupled) = (0.0, contact.is_some());
+        if let Some(contact) = contact {
+            heat = self.condensed.heat_factor * contact.heat(solution);
+        }
+        if !C::IS_EXACT {
+            heat += changes.heat;
+        }
         for a in 0..A::MEASURES {
-            self.correction[a] = changes[a];
+            self.correction[a] = changes.measures[a];
         }
         for u in 0..Self::UNKNOWNS {
             if !self.own_unknowns().has::<A>(u) {
@@ -110,16 +117,5 @@ impl<K: Kinematics<D>, const D: usize> Site<K, D> {
             }
         }
         motion
-    }
-}
-
-impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
-    /// `Σ κ (δΘ_partner − δΘ)`, W.
-    #[inline]
-    pub(super) fn heat(&self, solution: &[[f64; 1]]) -> f64 {
-        let own = solution[self.unknown as usize][0];
-        self.paths.iter().fold(0.0, |sum, path| {
-            sum + path.conductance * (solution[path.unknown as usize][0] - own)
-        })
     }
 }

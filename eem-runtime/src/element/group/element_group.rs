@@ -1,105 +1,134 @@
 //! The elements of one model, with one set of forces in a step.
 
-use super::ahead::Ahead;
-use super::arms::change_in;
+use super::elements::Blocks;
 use super::interface::{Elements, Group, Loose};
 use super::loose::{LooseElements, MakeExplicit};
-use super::member::Member;
-use super::placed::PlacedPoint;
-use super::point::Point;
+use super::member::{Member, places};
+use super::placed::OfGroup;
 #[cfg(feature = "gradients")]
 use super::point_step::{Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
-use super::share::Share;
-use super::site::{Contact, Site};
+use super::points::{Changes, Exchange, Models, PointEnd, PointSet};
+use super::share::{Contacts, Share};
+use super::site::{ContactSite, Site};
 use super::view::{Along, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
 #[cfg(feature = "gradients")]
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::{Any, Exact, Family, OneSet, Placement};
+use crate::element::conjugates::{Any, Exact, Family, OneSet};
 use crate::element::error::StateError;
 use crate::element::group::view::ElementGeneric;
 use crate::element::impulse::Impulses;
-use crate::element::kinematics::{Kinematics, MeasureSet, Points, QuadraticStrain};
+use crate::element::kinematics::{Kinematics, Measures, QuadraticStrain};
 use crate::element::state::State;
 use crate::element::tally::{Reevaluation, Tally};
-use eem_material::arrays::Arrays;
-use eem_material::free_energy::Array;
+use eem_material::free_energy::{Array, MOST_TOGETHER};
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Scalar;
 
-/// Elements of the model `A` with the kinematics `K`.
-pub(crate) struct ElementGroup<A: Arrays, K: Kinematics<D>, const D: usize> {
-    pub(super) scheme: OneSet,
-    pub(super) members: Vec<Member<A, K, D>>,
-    pub(super) contacts: Vec<Contact<K, D>>,
+/// Elements of one model with the kinematics `K`.
+pub(crate) struct ElementGroup<K: QuadraticStrain<D>, const D: usize> {
+    pub(super) of: OfGroup,
+    pub(super) elements: Blocks<K, dyn PointSet<K::Measures>, D>,
+    pub(super) contacts: Contacts<K, D>,
+    /// The list of models, empty while they are in the blocks.
+    models: Box<dyn Models<K::Strain>>,
     make_explicit: MakeExplicit<D>,
     /// See [`Old::by_factors`].
     by_factors: bool,
+    /// Workspace for a block.
+    pub(super) room: Room<K, D>,
     /// Workspace for elements with many points, a round of elements at a time.
     pub(super) shares: Vec<Share<K, D>>,
-    /// Workspace for elements that are evaluated together.
-    pub(super) ahead: Option<Box<Ahead<A>>>,
 }
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
-    pub(crate) fn new(scheme: OneSet, loose: LooseElements<A, K, D>, placed: Placed<'_>) -> Self {
-        // A loop: collected, it takes four times the code.
+/// Workspace for the points of a block.
+pub(super) struct Room<K: Kinematics<D>, const D: usize> {
+    pub(super) exchange: Vec<Exchange<K::Measures>>,
+    pub(super) measures: Vec<Measures<K, D>>,
+    pub(super) changes: Vec<Changes<K::Measures>>,
+    pub(super) ends: Vec<PointEnd<K::Measures>>,
+}
+
+/// How many elements are in a block: of springs as many as are evaluated in one call, of others one.
+fn elements_per_block<K: Kinematics<D>, const D: usize>() -> usize {
+    if Member::<K, D>::POINTS == 1 {
+        MOST_TOGETHER
+    } else {
+        1
+    }
+}
+
+impl<K: QuadraticStrain<D>, const D: usize> ElementGroup<K, D> {
+    pub(crate) fn new(scheme: OneSet, mut loose: LooseElements<K, D>, placed: Placed<'_>) -> Self {
+        let shape = loose.models.shape();
+        let of = OfGroup {
+            scheme,
+            has_drag: shape.drag,
+            is_thermal: shape.thermal,
+            has_unknowns: shape.thermal || shape.dashpots > 0,
+        };
+        let per_block = elements_per_block::<K, D>();
+        let per_set = per_block * Member::<K, D>::POINTS;
+        let all = places::<K, D>(&loose.elements, placed);
+        let sets = loose.models.points(scheme, &all, per_set);
         let mut members = Vec::with_capacity(loose.elements.len());
-        for parts in loose.elements {
-            members.push(Member::new(scheme, parts, placed));
+        for element in &loose.elements {
+            members.push(Member::new(scheme, element, placed));
         }
-        let ahead = if const { K::Measures::IS_SPRING } {
-            Ahead::new(&mut members.iter().map(|member| &member.only().point.model))
-        } else {
-            None
+        let room = per_set.min(all.len());
+        let none = Measures::<K, D>::filled(0.0);
+        let end = PointEnd {
+            measures: none,
+            sizes: [none; 2],
+            slopes: none,
+            way: 0.0,
+        };
+        let changes = Changes {
+            measures: none,
+            heat: 0.0,
         };
         Self {
-            scheme,
-            members,
-            contacts: Vec::new(),
+            of,
+            elements: Blocks::new(members, sets, per_block),
+            contacts: Contacts::none(),
+            models: loose.models,
             make_explicit: loose.make_explicit,
             by_factors: false,
+            room: Room {
+                exchange: vec![Exchange::none(); room],
+                measures: vec![none; room],
+                changes: vec![changes; room],
+                ends: vec![end; room],
+            },
             shares: Vec::new(),
-            ahead,
         }
     }
 
     /// The elements without the scheme.
-    pub(super) fn into_loose(self) -> LooseElements<A, K, D> {
-        let mut elements = Vec::with_capacity(self.members.len());
-        for member in self.members {
-            elements.push(member.into_parts());
-        }
+    fn into_loose_elements(self) -> LooseElements<K, D> {
+        let mut models = self.models;
+        let mut take_back = |own| models.take_back(own);
+        let elements = self.elements.into_loose(&mut take_back);
         LooseElements {
             elements,
+            models,
             make_explicit: self.make_explicit,
         }
-    }
-
-    /// All points.
-    pub(super) fn points(&self) -> impl Iterator<Item = &PlacedPoint<A, K, D>> {
-        let members = self.members.iter();
-        members.flat_map(|member| member.points.as_ref())
-    }
-
-    /// The element of the point with this index in the group, and the index of the point in the element.
-    pub(super) fn at(&self, place: usize) -> (&Member<A, K, D>, usize) {
-        let points = K::PerPoint::<PlacedPoint<A, K, D>>::LEN;
-        (&self.members[place / points], place % points)
     }
 }
 
 /// The functions of a step, for a family of schemes.
-impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
-    /// Whether the functions of exact schemes are compiled apart from those of all schemes. Not for arrays with room: it would take a step
-    /// 12 % fewer instructions, and the runtime 5 % longer to compile.
-    const IS_SEPARATE: bool = A::Drag::LEN == 0;
-
-    /// Whether the loops are those for elements that are evaluated together. For the family of any scheme there are no others
-    /// if the material may be evaluated so: one copy is compiled, a little slower.
-    #[inline]
-    fn is_together<C: Family>(&self) -> bool {
-        K::Measures::IS_SPRING && (!C::IS_EXACT || self.ahead.is_some())
+impl<K: QuadraticStrain<D>, const D: usize> ElementGroup<K, D> {
+    fn evaluate_as<C: Family>(
+        &mut self,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        system: Option<&mut LinearSystem<1>>,
+    ) -> Result<(), StateError> {
+        match system {
+            Some(system) => self.linearize::<C>((view, trial), system),
+            None => self.respond::<C>((view, trial)),
+        }
     }
 
     fn begin_as<C: Family>(
@@ -107,151 +136,54 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
         view: &StepView<'_>,
         old: &mut Old<'_, D>,
     ) -> Result<(), StateError> {
-        let is_together = self.is_together::<C>();
-        for member in &mut self.members {
-            member.begin::<C>(view, old)?;
-            if !is_together {
-                member.keep(view);
-            }
-        }
-        if const { K::Measures::IS_SPRING } && is_together {
-            return self.keep_together(view);
-        }
-        Ok(())
-    }
-
-    fn evaluate_as<C: Family>(
-        &mut self,
-        view: &StepView<'_>,
-        trial: &Trial<D>,
-        system: Option<&mut LinearSystem<1>>,
-    ) -> Result<(), StateError> {
-        if const { K::Measures::IS_SPRING } && self.is_together::<C>() {
-            return match system {
-                Some(system) => self.linearize_together::<C>(view, trial, system),
-                None => self.respond_together::<C>(view, trial),
-            };
-        }
-        let Some(system) = system else {
-            return self.respond_one_by_one::<C>(view, trial);
-        };
-        if const { K::PerPoint::<()>::LEN > 1 } {
-            self.linearize_in_rounds::<C>(view, trial, system)
-        } else {
-            self.linearize_one_by_one::<C>(view, trial, system)
-        }
-    }
-
-    fn correct_as<C: Family>(&mut self, solution: &[[f64; 1]]) -> f64 {
-        let mut largest = 0.0;
-        if Point::<A, K::Measures>::UNKNOWNS == 0 {
-            return largest;
-        }
-        for member in &mut self.members {
-            let motion = member.site.motion_in(solution);
-            for point in member.points.as_mut() {
-                let contact = point.contact_in(&self.contacts);
-                let update = point.correct::<C>(&motion, contact, solution, self.by_factors);
-                largest = Scalar::maximum(largest, update);
-            }
-        }
-        largest
-    }
-
-    fn add_impulse_as<C: Family>(
-        &self,
-        view: &StepView<'_>,
-        trial: &Trial<D>,
-        along: Along,
-        impulses: &mut Impulses<'_, D>,
-        magnitudes: &mut [f64],
-    ) {
-        let at = match along {
-            Along::Secant => None,
-            Along::Scheme => Some(C::placement(self.scheme)),
-            Along::Gradient => Some(Placement::End),
-            Along::Stage(_) => return,
-        };
-        for member in &self.members {
-            let (nodes, r0) = (&member.site.nodes, &member.r0);
-            let r1 = member.new_arms(trial);
-            if !magnitudes.is_empty() {
-                let change = change_in::<K, D>(nodes, trial);
-                member.add_magnitude(view.step, [&r1, &change], magnitudes);
-            }
-            let (h, force) = if let Some(at) = at {
-                let share = view.step * C::implicit(self.scheme);
-                (share, member.force(at, [r0, &r1]))
-            } else {
-                let mut mean = change_in::<K, D>(nodes, trial);
-                let old = r0.as_ref().as_flattened();
-                for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
-                    *mean = old + 0.5 * *mean;
-                }
-                (view.step, member.pull::<C>([r0, &r1], &mean))
-            };
-            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
-                for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
-                    *impulse -= h * force;
-                }
-            }
-        }
-    }
-
-    fn close_as<C: Family>(
-        &mut self,
-        view: &StepView<'_>,
-        trial: &Trial<D>,
-        next: &mut State,
-        tally: &mut Tally,
-    ) -> Result<(), StateError> {
-        if const { K::Measures::IS_SPRING } && self.is_together::<C>() {
-            return self.close_together::<C>(view, trial, next, tally);
-        }
-        for member in &mut self.members {
-            member.close::<C>(&self.contacts, (view, trial), next, tally, None)?;
+        self.by_factors = old.by_factors;
+        for block in &mut self.elements.blocks {
+            let how = (view, self.by_factors);
+            block.begin::<C>(&self.of, how, old, &mut self.room.measures)?;
         }
         Ok(())
     }
 }
 
-impl<A: Arrays, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup<A, K, D> {
+impl<K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup<K, D> {
     fn elements(&self) -> &dyn Elements<D> {
-        self
+        &self.elements
     }
 
     fn elements_mut(&mut self) -> &mut dyn Elements<D> {
-        self
+        &mut self.elements
     }
 
     fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>> {
-        Box::new(Self::into_loose(*self))
+        Box::new(self.into_loose_elements())
     }
 
     fn connect(&mut self, sites: &Sites<'_, D>) {
-        self.contacts.clear();
-        for member in &mut self.members {
-            let nodes = member.site.nodes;
-            member.site = Site::new(nodes, sites);
-            for point in member.points.as_mut() {
-                let slot = point.slots().thermal;
-                point.meets_reservoirs =
-                    slot.is_some_and(|slot| sites.conduction.meets_reservoirs(slot));
-                point.settling = slot.map_or(0.0, |slot| sites.conduction.settling(slot));
-                if let Some(contact) = Contact::new(&nodes, slot, sites) {
-                    point.contact = compact(self.contacts.len());
-                    self.contacts.push(contact);
+        self.contacts = Contacts::none();
+        for block in &mut self.elements.blocks {
+            let mut index = 0;
+            for member in &mut block.members {
+                let nodes = member.site.nodes;
+                member.site = Site::new(nodes, sites);
+                for point in member.points.as_mut() {
+                    let (_, slots) = block.points.place(index);
+                    point.contact = u32::MAX;
+                    if let Some((heat, site)) = ContactSite::new(&nodes, slots.thermal, sites) {
+                        point.contact = compact(self.contacts.heat.len());
+                        self.contacts.heat.push(heat);
+                        self.contacts.sites.push(site);
+                    }
+                    (block.points).connect(index, point.contact, sites.conduction);
+                    index += 1;
                 }
             }
         }
     }
 
     fn begin(&mut self, view: &StepView<'_>, old: &mut Old<'_, D>) -> Result<(), StateError> {
-        self.by_factors = old.by_factors;
-        if const { Self::IS_SEPARATE } && matches!(self.scheme, OneSet::Exact(_)) {
-            self.begin_as::<Exact>(view, old)
-        } else {
-            self.begin_as::<Any>(view, old)
+        match self.of.scheme {
+            OneSet::Exact(_) => self.begin_as::<Exact>(view, old),
+            _ => self.begin_as::<Any>(view, old),
         }
     }
 
@@ -261,34 +193,33 @@ impl<A: Arrays, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup
         trial: &Trial<D>,
         system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
-        if const { Self::IS_SEPARATE } && matches!(self.scheme, OneSet::Exact(_)) {
-            self.evaluate_as::<Exact>(view, trial, system)
-        } else {
-            self.evaluate_as::<Any>(view, trial, system)
+        match self.of.scheme {
+            OneSet::Exact(_) => self.evaluate_as::<Exact>(view, trial, system),
+            _ => self.evaluate_as::<Any>(view, trial, system),
         }
     }
 
     fn correct(&mut self, solution: &[[f64; 1]]) -> f64 {
-        if const { Self::IS_SEPARATE } && matches!(self.scheme, OneSet::Exact(_) | OneSet::Damped) {
-            self.correct_as::<Exact>(solution)
-        } else {
-            self.correct_as::<Any>(solution)
+        let mut largest = 0.0;
+        if !self.of.has_unknowns {
+            return largest;
         }
+        for block in &mut self.elements.blocks {
+            let update = block.correct(&self.contacts, solution, &mut self.room.changes);
+            largest = Scalar::maximum(largest, update);
+        }
+        largest
     }
 
     fn apply(&mut self, share: f64) {
-        for member in &mut self.members {
-            for point in member.points.as_mut() {
-                point.apply::<Any>(share, self.by_factors);
-            }
+        for block in &mut self.elements.blocks {
+            block.points.apply(share);
         }
     }
 
     fn hold(&mut self) {
-        for member in &mut self.members {
-            for point in member.points.as_mut() {
-                point.hold::<Any>();
-            }
+        for block in &mut self.elements.blocks {
+            block.points.hold();
         }
     }
 
@@ -300,10 +231,10 @@ impl<A: Arrays, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup
         impulses: &mut Impulses<'_, D>,
         magnitudes: &mut [f64],
     ) {
-        if const { Self::IS_SEPARATE } && matches!(self.scheme, OneSet::Exact(_)) {
-            self.add_impulse_as::<Exact>(view, trial, along, impulses, magnitudes);
-        } else {
-            self.add_impulse_as::<Any>(view, trial, along, impulses, magnitudes);
+        for block in &self.elements.blocks {
+            let forces = &mut self.room.measures;
+            let at = (view, trial);
+            block.add_impulse(&self.of, at, along, forces, (impulses, magnitudes));
         }
     }
 
@@ -314,29 +245,35 @@ impl<A: Arrays, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup
         next: &mut State,
         tally: &mut Tally,
     ) -> Result<(), StateError> {
-        if const { Self::IS_SEPARATE } && matches!(self.scheme, OneSet::Exact(_)) {
-            self.close_as::<Exact>(view, trial, next, tally)
-        } else {
-            self.close_as::<Any>(view, trial, next, tally)
+        for block in &mut self.elements.blocks {
+            let (at, ends) = ((view, trial), &mut self.room.ends);
+            block.close(&self.of, at, &self.contacts, ends, (next, tally))?;
         }
+        Ok(())
     }
 
     fn reevaluate(&self, ends: [&State; 2], reevaluation: &mut Reevaluation) {
-        for member in &self.members {
-            for point in member.points.as_ref() {
-                let own = point.balance_between(&member.site.nodes, ends);
-                let found = Point::<A, K::Measures>::change_of(&point.response, &own.increments);
-                reevaluation.element(point.element, own.by_values, own.by_differences, found);
+        for block in &self.elements.blocks {
+            for (first, member) in block.elements() {
+                for (index, point) in (first..).zip(member.points.as_ref()) {
+                    let (measures, increments) = point.increments_between(&member.site.nodes, ends);
+                    let of_nodes = (measures.each_ref(), &increments);
+                    (block.points).reevaluate(index, of_nodes, ends, reevaluation);
+                }
             }
         }
     }
 
     fn generic_of_step(&self, ends: [&State; 2], see: &mut dyn FnMut(ElementGeneric)) {
-        for member in &self.members {
-            let [r0, r1] = [member.arms_in(ends[0]), member.arms_in(ends[1])];
-            let at = (self.scheme.placement(), [&r0, &r1]);
-            for point in member.points.as_ref() {
-                see(point.generic(&member.site.nodes, at));
+        let at = self.of.scheme.placement();
+        for block in &self.elements.blocks {
+            for (first, member) in block.elements() {
+                let [r0, r1] = [member.arms_in(ends[0]), member.arms_in(ends[1])];
+                for (index, point) in (first..).zip(member.points.as_ref()) {
+                    let (_, slots) = block.points.place(index);
+                    let of_point = (block.points.generic(index), slots);
+                    see(point.generic(&member.site.nodes, (at, [&r0, &r1]), of_point));
+                }
             }
         }
     }
@@ -386,10 +323,5 @@ impl<A: Arrays, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup
     #[cfg(feature = "gradients")]
     fn follow(&self, directions: &mut [Direction]) {
         Self::follow(self, directions);
-    }
-
-    #[cfg(feature = "gradients")]
-    fn energy_by_parameters(&self, state: &State, see: &mut SeeParameters<'_>) {
-        Self::energy_by_parameters(self, state, see);
     }
 }

@@ -1,65 +1,194 @@
-//! Evaluation of a trial state: responses, condensed local systems, contributions.
+//! Evaluation of a trial state: measures, responses, condensed local systems, contributions.
 
-use super::member::Member;
-use super::share::Share;
-use super::site::{Contact, paths_of};
+use core::slice;
+
+use super::member::{Block, Member};
+use super::placed::{OfGroup, TrialArms};
+use super::points::{Exchange, PointSet, TrialView};
+use super::share::{Contacts, Share};
 use crate::algebra::system::LinearSystem;
 use crate::algebra::threads;
-use crate::element::conjugates::{Family, Form};
+use crate::element::conjugates::Family;
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::Kinematics;
-use eem_material::arrays::Arrays;
+use crate::element::kinematics::{Kinematics, QuadraticStrain};
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
+/// The trial of a step, as elements see it.
+pub(super) type At<'a, const D: usize> = (&'a StepView<'a>, &'a Trial<D>);
+
+/// The trial of a step, as points see it.
+pub(super) fn for_points<'a, K: Kinematics<D>, const D: usize>(
+    (view, trial): At<'a, D>,
+    contacts: &'a Contacts<K, D>,
+) -> TrialView<'a> {
+    TrialView {
+        view,
+        interface: &trial.interface,
+        is_start: trial.is_start,
+        contacts: &contacts.heat,
+    }
+}
+
+impl<K: QuadraticStrain<D>, const D: usize> ElementGroup<K, D> {
     /// Evaluates responses and tangents, and adds their contributions to the system of the next iteration.
-    #[inline]
-    pub(super) fn linearize_one_by_one<C: Family>(
+    pub(super) fn linearize<C: Family>(
         &mut self,
-        view: &StepView<'_>,
-        trial: &Trial<D>,
+        at: At<'_, D>,
         system: &mut LinearSystem<1>,
     ) -> Result<(), StateError> {
+        let (of, contacts) = (&self.of, &self.contacts);
         let (values, right) = system.parts();
-        for member in &mut self.members {
-            let mut share = Share::none();
-            member.linearize::<C>(&self.contacts, view, trial, None, &mut share)?;
-            member.add_share(&share, &self.contacts, (&mut *values, &mut *right));
+        if const { Member::<K, D>::POINTS == 1 } {
+            for block in &mut self.elements.blocks {
+                let exchange = &mut self.room.exchange;
+                block.linearize::<C>(of, at, contacts, exchange)?;
+                for (member, exchange) in block.members.iter_mut().zip(exchange) {
+                    let mut share = Share::none();
+                    let arms = member.trial_arms::<C>(of, at);
+                    member.take::<C>(0, of, at, contacts, (&arms, exchange), &mut share);
+                    member.add_share(&share, contacts, (&mut *values, &mut *right));
+                }
+            }
+            return Ok(());
         }
-        Ok(())
+        let linearize = |block: &mut OneBlock<K, D>, share: &mut Share<K, D>| {
+            block.linearize_one_by_one::<C>(of, at, contacts, share)
+        };
+        let mut add = |block: &OneBlock<K, D>, share: &Share<K, D>| {
+            for member in &block.members {
+                member.add_share(share, contacts, (&mut *values, &mut *right));
+            }
+        };
+        in_rounds(
+            &mut self.elements.blocks,
+            &mut self.shares,
+            &linearize,
+            &mut add,
+        )
     }
 
     /// Evaluates responses without tangents.
-    #[inline]
-    pub(super) fn respond_one_by_one<C: Family>(
-        &mut self,
-        view: &StepView<'_>,
-        trial: &Trial<D>,
-    ) -> Result<(), StateError> {
-        for member in &mut self.members {
-            member.respond::<C>(view, trial, false)?;
+    pub(super) fn respond<C: Family>(&mut self, at: At<'_, D>) -> Result<(), StateError> {
+        for block in &mut self.elements.blocks {
+            block.respond::<C>(&self.of, at, &self.contacts, &mut self.room.exchange)?;
         }
         Ok(())
     }
+}
 
-    /// Linearizes elements with many points, in rounds.
-    #[inline(never)]
-    pub(super) fn linearize_in_rounds<C: Family>(
+type OneBlock<K, const D: usize> = Block<K, dyn PointSet<<K as Kinematics<D>>::Measures>, D>;
+
+impl<K: Kinematics<D>, const D: usize> Block<K, dyn PointSet<K::Measures>, D> {
+    /// Finds the measures of all points at a trial; an error at the first that is inadmissible, whose index is the number returned.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
+    fn place<C: Family>(
         &mut self,
-        view: &StepView<'_>,
-        trial: &Trial<D>,
-        system: &mut LinearSystem<1>,
+        of: &OfGroup,
+        at: At<'_, D>,
+        exchange: &mut [Exchange<K::Measures>],
+    ) -> (usize, Result<(), StateError>) {
+        let mut index = 0;
+        for member in &mut self.members {
+            let arms = member.trial_arms::<C>(of, at);
+            for point in member.points.as_mut() {
+                if !point.place::<C>(of, &arms, &mut exchange[index]) {
+                    let (element, _) = self.points.place(index);
+                    let refusal = point.kinematics.refusal(element, &arms.placed);
+                    return (index, Err(refusal));
+                }
+                index += 1;
+            }
+        }
+        (index, Ok(()))
+    }
+
+    #[inline]
+    fn linearize<C: Family>(
+        &mut self,
+        of: &OfGroup,
+        at: At<'_, D>,
+        contacts: &Contacts<K, D>,
+        exchange: &mut [Exchange<K::Measures>],
     ) -> Result<(), StateError> {
-        let (values, right) = system.parts();
-        let contacts = &self.contacts;
-        let linearize = |member: &mut Member<A, K, D>, share: &mut Share<K, D>| {
-            member.linearize::<C>(contacts, view, trial, None, share)
-        };
-        let mut add = |member: &Member<A, K, D>, share: &Share<K, D>| {
-            member.add_share(share, contacts, (&mut *values, &mut *right));
-        };
-        in_rounds(&mut self.members, &mut self.shares, &linearize, &mut add)
+        let (count, placed) = self.place::<C>(of, at, exchange);
+        let at = for_points(at, contacts);
+        (self.points).linearize(0, &at, &mut exchange[..count])?;
+        placed
+    }
+
+    #[inline]
+    fn respond<C: Family>(
+        &mut self,
+        of: &OfGroup,
+        at: At<'_, D>,
+        contacts: &Contacts<K, D>,
+        exchange: &mut [Exchange<K::Measures>],
+    ) -> Result<(), StateError> {
+        let (count, placed) = self.place::<C>(of, at, exchange);
+        (self.points).respond(&for_points(at, contacts), &exchange[..count])?;
+        placed
+    }
+
+    /// Evaluates elements with many points, an element after the other, point by point.
+    fn linearize_one_by_one<C: Family>(
+        &mut self,
+        of: &OfGroup,
+        at: At<'_, D>,
+        contacts: &Contacts<K, D>,
+        share: &mut Share<K, D>,
+    ) -> Result<(), StateError> {
+        let for_points = for_points(at, contacts);
+        let mut exchange = Exchange::none();
+        share.momentum = None;
+        for member in &mut self.members {
+            let arms = member.trial_arms::<C>(of, at);
+            for index in 0..Member::<K, D>::POINTS {
+                let point = &mut member.points.as_mut()[index];
+                if !point.place::<C>(of, &arms, &mut exchange) {
+                    let (element, _) = self.points.place(index);
+                    return Err(point.kinematics.refusal(element, &arms.placed));
+                }
+                let own = slice::from_mut(&mut exchange);
+                (self.points).linearize(index, &for_points, own)?;
+                member.take::<C>(index, of, at, contacts, (&arms, &exchange), share);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<K: Kinematics<D>, const D: usize> Member<K, D> {
+    /// Takes the answer of a point into the contribution of the element.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call of its own costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
+    fn take<C: Family>(
+        &mut self,
+        index: usize,
+        of: &OfGroup,
+        (view, _): At<'_, D>,
+        contacts: &Contacts<K, D>,
+        (arms, exchange): (&TrialArms<K, D>, &Exchange<K::Measures>),
+        share: &mut Share<K, D>,
+    ) {
+        let point = &mut self.points.as_mut()[index];
+        let pose = point.pose::<C>(of, arms);
+        let by_arm = point.take_sensitivity::<C>(of, &pose, arms, exchange);
+        let heat = &mut share.heat.as_mut()[index];
+        let contact = point.contact_in(&contacts.heat);
+        *heat = contact.map(|_| point.heat::<C>(exchange));
+        if view.phase.moves() {
+            let of = (of, view.step);
+            let pose = (&pose, by_arm.as_ref());
+            point.add_momentum::<C>(of, pose, exchange, heat, &mut share.momentum);
+        }
     }
 }
 
@@ -120,73 +249,4 @@ fn in_pieces<A: Send, B: Send>(
         &mut || second = in_pieces(more_members, more_shares, of_one),
     );
     first.and(second)
-}
-
-impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
-    /// Evaluates the responses without tangents, unless those stored are known to be right.
-    #[expect(
-        clippy::inline_always,
-        reason = "a call costs 0.8 % of a step of a spring"
-    )]
-    #[inline(always)]
-    pub(super) fn respond<C: Family>(
-        &mut self,
-        view: &StepView<'_>,
-        trial: &Trial<D>,
-        is_known: bool,
-    ) -> Result<(), StateError> {
-        let arms = self.trial_arms::<C>(view, trial);
-        for point in self.points.as_mut() {
-            point.respond_alone::<C>(view, trial, &arms, is_known)?;
-        }
-        Ok(())
-    }
-
-    /// Evaluates responses and tangents, and the contribution of the element to the system of the next iteration. With a known
-    /// form, mixed states and viscosities are those that the point stores.
-    #[expect(
-        clippy::inline_always,
-        reason = "a call of its own costs 1 % of a step of a spring"
-    )]
-    #[inline(always)]
-    pub(super) fn linearize<C: Family>(
-        &mut self,
-        contacts: &[Contact<K, D>],
-        view: &StepView<'_>,
-        trial: &Trial<D>,
-        known: Option<&Form<A>>,
-        share: &mut Share<K, D>,
-    ) -> Result<(), StateError> {
-        let arms = self.trial_arms::<C>(view, trial);
-        share.momentum = None;
-        for (point, heat) in self.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
-            let measures =
-                point.locate_trial::<C>(&arms.placed, trial.is_start, known.is_some())?;
-            let pose = point.pose::<C>(&arms, &measures);
-            point.sensitivity = pose.sensitivity;
-            let by_rate = point.extend::<C>(&pose, &arms.motion);
-            // Used in place: copies would cost a good part of the time.
-            let mut form = known.map_or_else(|| point.form::<C>(trial.is_start), |form| *form);
-            if point.is_thermal() && C::is_in_temperature(point.scheme) {
-                point.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
-            }
-            point.accept::<C>(view.per_step, &form, known.is_some())?;
-            let elastic = point.add_drag::<C>(view.per_step, &mut form);
-            let undamped = point.add_damping::<C>(&mut form);
-            let contact = point.contact_in(contacts);
-            point.condense::<C>(view, &trial.interface, &form, paths_of(contact))?;
-            if let Some(by_rate) = &by_rate {
-                point.warm_by_rates::<C>(view, by_rate);
-            }
-            *heat = contact.map(|_| point.heat::<C>(&trial.interface, &form));
-            if view.phase.moves() {
-                let form = (&form, by_rate.as_ref());
-                point.add_momentum::<C>(view.step, &pose, form, heat, &mut share.momentum);
-            }
-            point.keep::<C>(&form);
-            point.drop_damping(undamped.as_ref());
-            point.drop_drag(&elastic);
-        }
-        Ok(())
-    }
 }

@@ -76,6 +76,10 @@ pub(crate) trait Elements<const D: usize>: Send + Sync {
         0.0
     }
 
+    /// Passes the derivatives of the internal energy of every point with respect to its parameters in a state to `see`.
+    #[cfg(feature = "gradients")]
+    fn energy_by_parameters(&self, state: &State, see: &mut SeeParameters<'_>);
+
     /// The state indices of the internal variables of the element at `place`.
     fn slots(&self, place: usize) -> Slots;
 
@@ -217,10 +221,6 @@ pub(crate) trait Group<const D: usize>: Send + Sync {
     /// Finds the changes of the internal variables of the new state, given those of the positions and the solutions.
     #[cfg(feature = "gradients")]
     fn follow(&self, _: &mut [Direction]) {}
-
-    /// Passes the derivatives of the internal energy of every point with respect to its parameters in a state to `see`.
-    #[cfg(feature = "gradients")]
-    fn energy_by_parameters(&self, _state: &State, _see: &mut SeeParameters<'_>) {}
 }
 
 /// Elements of one model in an explicit scheme.

@@ -9,15 +9,13 @@
 //! lose its digits where the dashpot is stiff. The classical schemes take `η λ̇` at their point of the step. The
 //! response stays that of the free energy; [`Point::pulls`] returns elastic plus viscous force.
 
-use super::arms::{add_scaled, along, measures_in, scale};
+use super::arms::measures_in;
 use super::local::Dissipation;
-use super::placed::PlacedPoint;
 use super::point::{Point, temperature_in};
-use super::pose::Pose;
 use crate::element::conjugates::{Family, Form};
 use crate::element::error::StateError;
 use crate::element::group::view::StepView;
-use crate::element::kinematics::{Arms, Gradient, Kinematics, MeasureSet, Numbers};
+use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::tally::Tally;
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
@@ -202,69 +200,27 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     }
 }
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
-    /// Finds `Δλ` along the gradients of the trial. For a classical scheme it is `w h λ̇`, with the rate λ̇ of the
-    /// trial, and its derivatives with respect to the new arms are returned.
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
+    /// Takes `Δλ` along the gradients of the trial; for a classical scheme it is `w h λ̇`, with the rate λ̇ of the trial.
     #[inline]
-    pub(super) fn extend<C: Family>(
-        &mut self,
-        pose: &Pose<K, D>,
-        motion: &Arms<K, D>,
-    ) -> Option<Gradient<K, D>> {
-        if const { !Point::<A, K::Measures>::MAY_HAVE_DRAG } {
-            return None;
-        }
-        if self.has_rates::<C>() {
-            let (own, by_arm) =
-                pose.increase(&self.kinematics, self.point.scheme.placement(), motion);
-            for a in 0..self.drags() {
-                self.point.drag.extension[a] = own[a];
-            }
-            return Some(by_arm);
-        }
+    pub(super) fn extend(&mut self, increments: &Numbers<Q>) {
         for a in 0..self.drags() {
-            self.point.drag.extension[a] = along::<K, D>(&pose.direction[a], motion);
+            self.drag.extension[a] = increments[a];
         }
-        None
     }
 
-    /// For a classical scheme: finds the derivatives of the heat balance with respect to the new arms through the rates.
+    /// For a classical scheme: adds the derivatives of the heat balance by the increments through the rates.
+    #[inline]
     pub(super) fn warm_by_rates<C: Family>(
-        &mut self,
-        view: &StepView<'_>,
-        by_arm: &Gradient<K, D>,
-    ) {
-        if const { !Point::<A, K::Measures>::MAY_HAVE_DRAG } {
-            return;
-        }
-        let (drags, per_share) = (self.drags(), self.per_share::<C>(view.per_step));
-        if let Some(by_increment) = &mut self.by_increment {
-            for a in 0..drags {
-                let force = self.point.drag.force[a];
-                let mut by = by_arm[a];
-                let by_extension = self.point.condensed.heat_factor * (force + force) * per_share;
-                scale::<K, D>(&mut by, by_extension);
-                if self.point.scheme.is_in_temperature() {
-                    add_scaled::<K, D>(by_increment, 1.0, &by);
-                } else {
-                    **by_increment = by;
-                }
-            }
-        }
-    }
-
-    /// The derivative of a force with respect to the new arms through its rate, times a factor.
-    pub(super) fn force_by_rate<C: Family>(
         &self,
-        a: usize,
-        per_step: f64,
-        factor: f64,
-        by_arm: &Gradient<K, D>,
-    ) -> Arms<K, D> {
-        let mut by = by_arm[a];
-        let eta = self.drag.viscosity.0[a];
-        scale::<K, D>(&mut by, factor * eta * self.per_share::<C>(per_step));
-        by
+        view: &StepView<'_>,
+        by_increment: &mut Numbers<Q>,
+    ) {
+        let per_share = self.per_share::<C>(view.per_step);
+        for a in 0..self.drags() {
+            let force = self.drag.force[a];
+            by_increment[a] += self.condensed.heat_factor * (force + force) * per_share;
+        }
     }
 }
 

@@ -1,68 +1,188 @@
 //! Elements of one model without a scheme, while a scene is built or its scheme is changed.
 
+use core::any::{Any, TypeId};
 use core::fmt;
+use core::mem;
 
-use super::interface::{ExplicitGroup, Loose};
+use super::element_group::ElementGroup;
+use super::interface::{ExplicitGroup, Group, Loose};
+use super::member::{LooseElement, Member, places};
+use super::model_points::ModelPoints;
+use super::points::{Models, PointPlace, PointSet};
+use super::stages::{
+    PathModels, PointPath, Projections, StageGroup, StagePoints, StageValues, ValueModels, Values,
+};
 use super::view::Placed;
-use crate::element::handle::Element;
-use crate::element::kinematics::{Kinematics, MeasureSet, Points};
+use crate::element::conjugates::{Conjugates, OneSet};
+use crate::element::kinematics::{MeasureSet, Points, QuadraticStrain, StrainMeasures};
 use crate::element::layout::Shape;
+use crate::element::tableau::Tableau;
 use eem_material::arrays::Arrays;
 use eem_material::tabled::Tabled;
-
-/// Model and kinematics of the points of an element.
-pub(crate) type Parts<A, K, const D: usize> = <K as Kinematics<D>>::PerPoint<(Tabled<A>, K)>;
 
 /// Makes the group of an explicit scheme.
 pub(crate) type MakeExplicit<const D: usize> =
     fn(Box<dyn Loose<D>>, Placed<'_>) -> Box<dyn ExplicitGroup<D>>;
 
-/// Elements of the model `A` with the kinematics `K`, each with the handle of its first point.
-pub(crate) struct LooseElements<A: Arrays, K: Kinematics<D>, const D: usize> {
-    pub(crate) elements: Vec<(Element, Parts<A, K, D>)>,
+/// Elements of one model with the kinematics `K`.
+pub(crate) struct LooseElements<K: QuadraticStrain<D>, const D: usize> {
+    pub(crate) elements: Vec<LooseElement<K, D>>,
+    /// Of all points.
+    pub(crate) models: Box<dyn Models<K::Strain>>,
     /// Explicit schemes are compiled for each material: a call of a table takes a good part of their time.
     pub(super) make_explicit: MakeExplicit<D>,
 }
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> LooseElements<A, K, D> {
-    pub(super) const POINTS: usize = K::PerPoint::<(Tabled<A>, K)>::LEN;
-
-    /// No elements yet.
-    pub(crate) fn new(make_explicit: MakeExplicit<D>) -> Self {
+impl<K: QuadraticStrain<D>, const D: usize> LooseElements<K, D> {
+    /// No elements yet, of models in the arrays `A`.
+    pub(crate) fn new<A: Arrays>(make_explicit: MakeExplicit<D>) -> Self {
         Self {
             elements: Vec::new(),
+            models: Box::new(ModelList::<A> { models: Vec::new() }),
             make_explicit,
         }
     }
 
-    /// The model of the first point; those of all points have its kind and name.
-    pub(super) fn model(&self) -> Option<&Tabled<A>> {
-        let (_, points) = self.elements.first()?;
-        Some(&points.as_ref().first()?.0)
+    /// Adds an element, with a model for each of its points; returns the index of its first point.
+    ///
+    /// # Panics
+    ///
+    /// If these models have other arrays.
+    pub(crate) fn push<A: Arrays>(
+        &mut self,
+        element: LooseElement<K, D>,
+        models: impl IntoIterator<Item = Tabled<A>>,
+    ) -> usize {
+        let list = self.models.as_any_mut().downcast_mut::<ModelList<A>>();
+        let list = list.unwrap_or_else(|| unreachable!("the models of a group are of one kind"));
+        let place = list.models.len();
+        list.models.extend(models);
+        self.elements.push(element);
+        place
+    }
+}
+
+impl<K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseElements<K, D> {
+    fn as_any(&self) -> &dyn Any {
+        self
     }
 
-    /// Number of points.
-    pub(crate) fn points(&self) -> usize {
-        Self::POINTS * self.elements.len()
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
     }
 
-    /// Capabilities of the model.
-    pub(super) fn shape_of_all(&self) -> Shape {
-        let model = self.model();
+    fn shape(&self) -> Shape {
+        self.models.shape()
+    }
+
+    fn points_per_element(&self) -> usize {
+        Member::<K, D>::POINTS
+    }
+
+    fn kind(&self) -> (TypeId, u64) {
+        self.models.kind()
+    }
+
+    fn name(&self) -> &'static &'static str {
+        self.models.name()
+    }
+
+    fn infinite_parameter(&self, place: usize) -> Option<(&'static str, f64)> {
+        self.models.infinite_parameter(place)
+    }
+
+    fn duplicate(&self) -> Box<dyn Loose<D>> {
+        let mut elements = Vec::with_capacity(self.elements.len());
+        for (first, points) in &self.elements {
+            let of_point = |point: usize| points.as_ref()[point];
+            elements.push((*first, K::PerPoint::from_fn(of_point)));
+        }
+        Box::new(Self {
+            elements,
+            models: self.models.duplicate(),
+            make_explicit: self.make_explicit,
+        })
+    }
+
+    fn build(mut self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<D>> {
+        match by {
+            Conjugates::One(scheme) => Box::new(ElementGroup::new(scheme, *self, placed)),
+            Conjugates::Stages(rule) if rule.path.is_some() => {
+                let places = places::<K, D>(&self.elements, placed);
+                let mut strains = Vec::with_capacity(places.len());
+                for (_, points) in &self.elements {
+                    for kinematics in points.as_ref() {
+                        strains.push(kinematics.strain_measures());
+                    }
+                }
+                let points = self.models.on_path(rule, &places, &strains);
+                Box::new(StageGroup::<K, Projections<K, D>, D>::new(
+                    rule, *self, points, placed,
+                ))
+            }
+            // Not compiled for solids, which these schemes refuse.
+            Conjugates::Stages(rule) if K::Measures::IS_SPRING => {
+                let places = places::<K, D>(&self.elements, placed);
+                let points = self.models.at_stages(rule, &places);
+                Box::new(StageGroup::<K, Values<K, D>, D>::new(
+                    rule, *self, points, placed,
+                ))
+            }
+            Conjugates::Stages(_) => unreachable!("they are refused in scenes with solids"),
+        }
+    }
+
+    fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<D>> {
+        (self.make_explicit)(self, placed)
+    }
+}
+
+impl<K: QuadraticStrain<D>, const D: usize> fmt::Debug for LooseElements<K, D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = self.models.name();
+        write!(f, "{} elements of {name}", self.elements.len())
+    }
+}
+
+/// The models of points, in the arrays `A`.
+pub(crate) struct ModelList<A: Arrays> {
+    pub(super) models: Vec<Tabled<A>>,
+}
+
+impl<A: Arrays, G: StrainMeasures> Models<G> for ModelList<A> {
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+
+    fn shape(&self) -> Shape {
+        // They are of one kind.
+        let model = self.models.first();
         Shape {
             dashpots: model.map_or(0, Tabled::dashpots),
             thermal: model.is_some_and(Tabled::is_thermal),
             drag: model.map_or(0, Tabled::drags) > 0,
-            is_spring: K::Measures::IS_SPRING,
+            is_spring: G::Measures::IS_SPRING,
             viscous_strain: model.map_or(0, Tabled::viscous_strain),
-            viscous_unit: K::Measures::VISCOUS_UNIT,
+            viscous_unit: G::Measures::VISCOUS_UNIT,
         }
     }
 
-    /// See [`Loose::infinite_parameter`](super::Loose::infinite_parameter).
-    pub(super) fn infinite_parameter_at(&self, place: usize) -> Option<(&'static str, f64)> {
-        let (_, points) = &self.elements[place / Self::POINTS];
-        let (model, _) = &points.as_ref()[place % Self::POINTS];
+    fn kind(&self) -> (TypeId, u64) {
+        let first = self.models.first();
+        first.map_or((TypeId::of::<A>(), 0), identity)
+    }
+
+    fn name(&self) -> &'static &'static str {
+        let first = self.models.first();
+        first.map_or(&"material", |model| model.facts().model)
+    }
+
+    fn infinite_parameter(&self, index: usize) -> Option<(&'static str, f64)> {
+        let model = &self.models[index];
         for (index, &name) in model.parameter_names().iter().enumerate() {
             let value = model.parameter(index);
             if !value.is_finite() {
@@ -72,28 +192,62 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> LooseElements<A, K, D> {
         None
     }
 
-    /// A copy of the elements.
-    pub(super) fn duplicate_all(&self) -> Self {
-        let mut elements = Vec::with_capacity(self.elements.len());
-        for (first, points) in &self.elements {
-            let copy = |point: usize| {
-                let (model, kinematics) = &points.as_ref()[point];
-                (model.duplicate(), *kinematics)
-            };
-            elements.push((*first, K::PerPoint::from_fn(copy)));
+    fn duplicate(&self) -> Box<dyn Models<G>> {
+        let mut models = Vec::with_capacity(self.models.len());
+        for model in &self.models {
+            models.push(model.duplicate());
         }
-        Self {
-            elements,
-            make_explicit: self.make_explicit,
+        Box::new(Self { models })
+    }
+
+    fn take_back(&mut self, models: Box<dyn Any>) {
+        let models = models.downcast::<Vec<Tabled<A>>>();
+        let models = models.unwrap_or_else(|_| unreachable!("the models were of this list"));
+        self.models.extend(*models);
+    }
+
+    fn points(
+        &mut self,
+        scheme: OneSet,
+        places: &[PointPlace],
+        per_set: usize,
+    ) -> Vec<Box<dyn PointSet<G::Measures>>> {
+        let mut models = mem::take(&mut self.models).into_iter();
+        let mut sets: Vec<Box<dyn PointSet<G::Measures>>> = Vec::new();
+        for places in places.chunks(per_set.max(1)) {
+            let points = ModelPoints::<A, G::Measures>::new(scheme, &mut models, places);
+            sets.push(Box::new(points));
         }
+        sets
+    }
+
+    fn on_path(
+        &mut self,
+        rule: &'static Tableau,
+        places: &[PointPlace],
+        strains: &[G],
+    ) -> Box<dyn PathModels<G>> {
+        let mut strains = strains.iter();
+        let models = mem::take(&mut self.models);
+        Box::new(StagePoints::new(rule, models, places, &mut |point| {
+            let own = strains.next().copied();
+            let own = own.unwrap_or_else(|| unreachable!("there is one per point"));
+            PointPath::<A, G>::new(own, point)
+        }))
+    }
+
+    fn at_stages(
+        &mut self,
+        rule: &'static Tableau,
+        places: &[PointPlace],
+    ) -> Box<dyn ValueModels<G::Measures>> {
+        let models = mem::take(&mut self.models);
+        let points = StagePoints::new(rule, models, places, &mut StageValues::<A>::new);
+        Box::new(points)
     }
 }
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> fmt::Debug for LooseElements<A, K, D> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = self
-            .model()
-            .map_or(&"material", |model| model.facts().model);
-        write!(f, "{} elements of {name}", self.elements.len())
-    }
+/// The type and the kind of a model.
+pub(crate) fn identity<A: Arrays>(model: &Tabled<A>) -> (TypeId, u64) {
+    (model.as_any().type_id(), model.facts().kind)
 }

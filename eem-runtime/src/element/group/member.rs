@@ -1,68 +1,56 @@
-//! One element of a group: its nodes, and the points at which its free energy is evaluated.
+//! One element of a group: its nodes, and the points at which its free energy is evaluated; and some of them with their points.
 
 use super::arms::{add_scaled, arms_in, change_in};
-use super::placed::PlacedPoint;
-use super::point::Point;
+use super::evaluate::At;
+use super::placed::{OfGroup, PlacedPoint, TrialArms};
+use super::points::PointPlace;
 use super::pose::placed_arms;
-use super::respond::TrialArms;
 use super::site::Site;
 use crate::element::conjugates::{Family, OneSet};
 use crate::element::group::view::{Placed, StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
-use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
-use eem_material::tabled::Tabled;
+
+/// Some elements, and their points behind a wall.
+pub(super) struct Block<K: Kinematics<D>, P: ?Sized, const D: usize> {
+    pub(super) members: Vec<Member<K, D>>,
+    pub(super) points: Box<P>,
+}
 
 /// An element.
-pub(crate) struct Member<A: Arrays, K: Kinematics<D>, const D: usize> {
+pub(crate) struct Member<K: Kinematics<D>, const D: usize> {
     pub(super) site: Site<K, D>,
     /// The old arms.
     pub(super) r0: Arms<K, D>,
-    pub(super) points: K::PerPoint<PlacedPoint<A, K, D>>,
+    pub(super) points: K::PerPoint<PlacedPoint<K, D>>,
 }
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
+/// The elements without a scheme: the handle of the first point of each, and the kinematics of all its points.
+pub(crate) type LooseElement<K, const D: usize> = (Element, <K as Kinematics<D>>::PerPoint<K>);
+
+impl<K: Kinematics<D>, const D: usize> Member<K, D> {
+    /// Number of points of an element.
+    pub(super) const POINTS: usize = K::PerPoint::<()>::LEN;
+
     /// An element whose points have consecutive handles, of which the first is given.
     pub(super) fn new(
         scheme: OneSet,
-        (first, points): (Element, K::PerPoint<(Tabled<A>, K)>),
+        (first, kinematics): &LooseElement<K, D>,
         placed: Placed<'_>,
     ) -> Self {
-        let mut parts = points.into_iter();
+        let of_point = |point: usize| PlacedPoint::new(kinematics.as_ref()[point], scheme);
         Self {
             site: Site::unconnected(placed.nodes.of(first.index())),
             r0: Arms::<K, D>::filled([0.0; D]),
-            points: K::PerPoint::from_fn(|point| {
-                let element = first.after(point);
-                let slots = placed.layout.elements[element.index()];
-                let (model, kinematics) = next_of(&mut parts);
-                PlacedPoint::new(kinematics, Point::new(scheme, element, model, slots))
-            }),
+            points: K::PerPoint::from_fn(of_point),
         }
     }
 
-    /// The handle of its first point, and model and kinematics of all points.
-    pub(super) fn into_parts(self) -> (Element, K::PerPoint<(Tabled<A>, K)>) {
-        let first = self.points.as_ref()[0].element;
-        let mut points = self.points.into_iter();
-        let parts = K::PerPoint::from_fn(|_| {
-            let point = next_of(&mut points);
-            (point.point.model, point.kinematics)
-        });
-        (first, parts)
-    }
-
-    /// The first point, the only one of a spring.
-    pub(super) fn only(&self) -> &PlacedPoint<A, K, D> {
-        &self.points.as_ref()[0]
-    }
-
-    /// The scheme of its points.
-    #[inline]
-    pub(super) fn scheme(&self) -> OneSet {
-        self.only().scheme
+    /// The kinematics of its points.
+    pub(super) fn kinematics(&self) -> K::PerPoint<K> {
+        K::PerPoint::from_fn(|point| self.points.as_ref()[point].kinematics)
     }
 
     /// Its arms in a state.
@@ -87,27 +75,24 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     #[inline(always)]
     pub(super) fn trial_arms<C: Family>(
         &self,
-        view: &StepView<'_>,
-        trial: &Trial<D>,
+        of: &OfGroup,
+        (view, trial): At<'_, D>,
     ) -> TrialArms<K, D> {
+        let at = C::placement(of.scheme);
         TrialArms {
             old: self.r0,
-            placed: placed_arms::<K, D>(
-                C::placement(self.scheme()),
-                &self.r0,
-                self.new_arms(trial),
-            ),
-            motion: self.motion::<C>(view, trial),
+            placed: placed_arms::<K, D>(at, &self.r0, self.new_arms(trial)),
+            motion: self.motion::<C>(of, view, trial),
         }
     }
 
-    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms; only schemes in temperature and Kelvin–Voigt dashpots use it.
+    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms, if it is needed.
     #[inline]
-    fn motion<C: Family>(&self, view: &StepView<'_>, trial: &Trial<D>) -> Arms<K, D> {
-        if !C::is_in_temperature(self.scheme()) && self.only().drags() == 0 {
+    fn motion<C: Family>(&self, of: &OfGroup, view: &StepView<'_>, trial: &Trial<D>) -> Arms<K, D> {
+        if !of.has_increments::<C>() {
             return self.r0;
         }
-        let rest = (1.0 - C::implicit(self.scheme())) * view.step;
+        let rest = (1.0 - C::implicit(of.scheme)) * view.step;
         let mut motion = change_in::<K, D>(&self.site.nodes, trial);
         let velocities = self.old_velocities(view);
         add_scaled::<K, D>(&mut motion, -rest, &velocities);
@@ -130,8 +115,25 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     }
 }
 
-/// The next item; there are as many as an element has points.
-fn next_of<T>(points: &mut impl Iterator<Item = T>) -> T {
-    let next = points.next();
-    next.unwrap_or_else(|| unreachable!("one per point"))
+impl<K: Kinematics<D>, P: ?Sized, const D: usize> Block<K, P, D> {
+    /// Each element with the index of its first point.
+    pub(super) fn elements(&self) -> impl Iterator<Item = (usize, &Member<K, D>)> {
+        let firsts = (0..).step_by(Member::<K, D>::POINTS);
+        firsts.zip(&self.members)
+    }
+}
+
+/// The places of all points of elements.
+pub(super) fn places<K: Kinematics<D>, const D: usize>(
+    elements: &[LooseElement<K, D>],
+    placed: Placed<'_>,
+) -> Vec<PointPlace> {
+    let mut places = Vec::with_capacity(elements.len() * Member::<K, D>::POINTS);
+    for (first, _) in elements {
+        for point in 0..Member::<K, D>::POINTS {
+            let element = first.after(point);
+            places.push((element, placed.layout.elements[element.index()]));
+        }
+    }
+    places
 }

@@ -1,9 +1,9 @@
 //! The energy changes of elements between two states, evaluated again where differences of values are too inaccurate.
 
-use super::arms::{along, arms_in, measures_in};
+use super::arms::{along, arms_in};
 use super::placed::PlacedPoint;
-use super::point::Point;
-use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet};
+use super::point::{Point, variables};
+use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Measures, Numbers};
 use crate::element::state::State;
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
@@ -37,25 +37,49 @@ fn change_between<K: Kinematics<D>, const D: usize>(
     change
 }
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
-    /// The change of its energy between two states, given its nodes.
-    pub(super) fn balance_between(
+impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
+    /// The measures in two stored states, and their increments.
+    pub(super) fn increments_between(
         &self,
         nodes: &K::PerNode<u32>,
         ends: [&State; 2],
-    ) -> EnergyChange<A> {
-        let [r0, r1] = [
-            arms_in::<K, D>(nodes, &ends[0].positions),
-            arms_in::<K, D>(nodes, &ends[1].positions),
-        ];
+    ) -> ([Measures<K, D>; 2], Measures<K, D>) {
+        let arms = ends.map(|state| arms_in::<K, D>(nodes, &state.positions));
         let change = change_between::<K, D>(nodes, ends);
+        let measures = arms.map(|r| self.kinematics.measure(&r));
+        let ends = Ends::new(&self.kinematics, arms, measures);
+        let gradient = self.kinematics.discrete_gradient(&ends);
+        let mut increments = Measures::<K, D>::filled(0.0);
+        for (increment, row) in increments.as_mut().iter_mut().zip(gradient.as_ref()) {
+            *increment = along::<K, D>(row, &change);
+        }
+        (measures, increments)
+    }
+}
+
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
+    /// The change of its energy between two states, given the measures there and their increments.
+    pub(super) fn balance_between(
+        &self,
+        (measures, of_measures): ([&Numbers<Q>; 2], &Numbers<Q>),
+        [old, new]: [&State; 2],
+    ) -> EnergyChange<A> {
+        let slots = self.slots();
+        let x =
+            |measures: &Numbers<Q>, state| variables(&self.model, measures.as_ref(), slots, state);
+        let x = [x(measures[0], old), x(measures[1], new)];
+        let mut increments = A::Variables::filled(0.0);
+        for a in 0..A::MEASURES {
+            increments[a] = of_measures[a];
+        }
+        for k in 0..self.dashpots() {
+            increments[A::MEASURES + k] = new.viscous.change(slots.viscous + k, &old.viscous);
+        }
+        if let Some(slot) = slots.thermal {
+            increments[Self::TEMPERATURE] = new.entropies.change(slot, &old.entropies);
+        }
         let at = self.element.index();
-        let by_values = ends[1].energies[at].value - ends[0].energies[at].value;
-        let x = [
-            self.variables_in(&r0, ends[0]),
-            self.variables_in(&r1, ends[1]),
-        ];
-        let increments = self.increments_between([&r0, &r1], &change, &x, ends);
+        let by_values = new.energies[at].value - old.energies[at].value;
         let magnitude = |x| self.model.energy_magnitude(x);
         EnergyChange {
             by_values: [by_values, magnitude(&x[0]) + magnitude(&x[1])],
@@ -64,36 +88,6 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
         }
     }
 
-    /// `(Δλ, Δγ, Δs)` between two stored states.
-    fn increments_between(
-        &self,
-        [r0, r1]: [&Arms<K, D>; 2],
-        change: &Arms<K, D>,
-        [x0, x1]: &[A::Variables; 2],
-        [old, new]: [&State; 2],
-    ) -> A::Variables {
-        let mut increments = A::Variables::filled(0.0);
-        let measures = [
-            measures_in::<K::Measures>(x0),
-            measures_in::<K::Measures>(x1),
-        ];
-        let ends = Ends::new(&self.kinematics, [*r0, *r1], measures);
-        let gradient = self.kinematics.discrete_gradient(&ends);
-        for (a, row) in gradient.as_ref().iter().enumerate() {
-            increments[a] = along::<K, D>(row, change);
-        }
-        let slots = self.slots();
-        for k in 0..self.dashpots() {
-            increments[A::MEASURES + k] = new.viscous.change(slots.viscous + k, &old.viscous);
-        }
-        if let Some(slot) = slots.thermal {
-            increments[A::MEASURES + A::DASHPOTS] = new.entropies.change(slot, &old.entropies);
-        }
-        increments
-    }
-}
-
-impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// `f*Δλ − Σ g*Δγ + θ*Δs`, J.
     pub(super) fn change_of(response: &A::Response, increments: &A::Variables) -> f64 {
         let mut sum = 0.0;

@@ -4,19 +4,10 @@ use super::point::{Point, temperature_in};
 use crate::element::conjugates::{Family, Form, check_stable};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
-use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Numbers};
+use crate::element::kinematics::{MeasureSet, Numbers};
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::is_positive;
-
-/// Arms of an element at a trial.
-pub(super) struct TrialArms<K: Kinematics<D>, const D: usize> {
-    pub(super) old: Arms<K, D>,
-    /// The new arms, or the mean ones for a scheme at the midpoint.
-    pub(super) placed: Arms<K, D>,
-    /// `r¹ − r⁰ − (1 − w) h ṙ⁰`; only schemes in temperature and Kelvin–Voigt dashpots use it.
-    pub(super) motion: Arms<K, D>,
-}
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Takes the measures of a trial, and finds its temperature if that is not an unknown, and other values that the form of

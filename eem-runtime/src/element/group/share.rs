@@ -3,14 +3,13 @@
 
 use super::arms::{add_scaled, scale};
 use super::condensed::CondensedRow;
-use super::placed::PlacedPoint;
+use super::member::Member;
+use super::placed::{OfGroup, PlacedPoint};
+use super::points::Exchange;
 use super::pose::Pose;
-use super::site::{Contact, Site};
-use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::{Family, Form};
-use crate::element::group::member::Member;
+use super::site::{ContactSite, HeatContact, Site};
+use crate::element::conjugates::Family;
 use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Measures, Points};
-use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// The contribution of the points of an element to the system of an iteration.
@@ -52,13 +51,13 @@ impl<K: Kinematics<D>, const D: usize> Share<K, D> {
     }
 }
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
+impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
     /// The derivative of a condensed response with respect to the new arms, times a factor.
     #[inline]
-    fn by_arm<C: Family>(&self, row: &CondensedRow<K::Measures>, factor: f64) -> Arms<K, D> {
+    fn by_arm<C: Family>(&self, row: &CondensedRow<Measures<K, D>>, factor: f64) -> Arms<K, D> {
         let mut sum = self.sensitivity[0];
         scale::<K, D>(&mut sum, factor * row.by_measure[0]);
-        for a in 1..A::MEASURES {
+        for a in 1..Measures::<K, D>::LEN {
             let by = factor * row.by_measure[a];
             add_scaled::<K, D>(&mut sum, by, &self.sensitivity[a]);
         }
@@ -71,6 +70,18 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
         sum
     }
 
+    /// The equation of the interface temperature of a point: Θ is θ*, or that of a damped scheme.
+    #[inline]
+    pub(super) fn heat<C: Family>(&self, exchange: &Exchange<K::Measures>) -> Heat<K, D> {
+        let row = &exchange.heat;
+        Heat {
+            residual: row.value,
+            by_arm: self.by_arm::<C>(row, 1.0),
+            slope: row.by_heat * exchange.heat_factor,
+            pull: Arms::<K, D>::filled([0.0; D]),
+        }
+    }
+
     /// Adds the impulse `h w Gᵀ f*` on the nodes and its derivatives to those of the points before, and the
     /// derivative with respect to heat from other elements to `heat`, if the point receives any.
     #[expect(
@@ -80,33 +91,35 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     #[inline(always)]
     pub(super) fn add_momentum<C: Family>(
         &self,
-        step: f64,
-        pose: &Pose<K, D>,
-        (form, by_rate): (&Form<A>, Option<&Gradient<K, D>>),
+        (of, step): (&OfGroup, f64),
+        (pose, increments_by_arm): (&Pose<K, D>, Option<&Gradient<K, D>>),
+        exchange: &Exchange<K::Measures>,
         heat: &mut Option<Heat<K, D>>,
         sum: &mut Option<Momentum<K, D>>,
     ) {
-        let impulse = step * C::implicit(self.scheme);
+        let impulse = step * C::implicit(of.scheme);
         let mut forces = Measures::<K, D>::filled(0.0);
         let mut forces_by_arm = pose.direction;
         let mut values = forces;
-        for a in 0..A::MEASURES {
-            let row = self.condensed_row::<C>(a, form, heat.is_some());
-            forces[a] = impulse * form.0[a];
-            forces_by_arm[a] = self.by_arm::<C>(&row, impulse);
-            if let Some(by_rate) = by_rate
-                && a < self.drags()
+        for a in 0..Measures::<K, D>::LEN {
+            let row = &exchange.rows[a];
+            forces[a] = impulse * exchange.forces[a];
+            forces_by_arm[a] = self.by_arm::<C>(row, impulse);
+            if !C::IS_EXACT
+                && of.has_drag
+                && let Some(by_arm) = increments_by_arm
             {
-                let by = self.force_by_rate::<C>(a, step.recip(), impulse, by_rate);
-                add_scaled::<K, D>(&mut forces_by_arm[a], 1.0, &by);
+                let per_share = step.recip() * C::implicit(of.scheme).recip();
+                let by = impulse * exchange.drags[a] * per_share;
+                add_scaled::<K, D>(&mut forces_by_arm[a], by, &by_arm[a]);
             }
             values[a] = impulse * row.value;
             if let Some(heat) = heat {
-                let by_heat = impulse * row.by_heat * self.condensed.heat_factor;
+                let by_heat = impulse * row.by_heat * exchange.heat_factor;
                 add_scaled::<K, D>(&mut heat.pull, -by_heat, &pose.direction[a]);
             }
         }
-        let (kinematics, at) = (&self.kinematics, C::placement(self.scheme));
+        let (kinematics, at) = (&self.kinematics, C::placement(of.scheme));
         let pull = pose.pull(kinematics, at, &values);
         match sum {
             // Springs have one point, and no sum.
@@ -123,30 +136,9 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
             }
         }
     }
-
-    /// The equation of a point with an interface temperature: Θ is θ*, or that of a damped scheme.
-    #[inline]
-    pub(super) fn heat<C: Family>(
-        &self,
-        interface: &InterfaceTemperatures,
-        form: &Form<A>,
-    ) -> Heat<K, D> {
-        let row = if C::is_damped(self.scheme) {
-            self.condensed_row::<C>(A::MEASURES + A::DASHPOTS, &self.conducting::<C>(form), true)
-        } else {
-            self.condensed_row::<C>(A::MEASURES + A::DASHPOTS, form, true)
-        };
-        let interface = interface.values()[self.slots().thermal.unwrap_or_default()];
-        Heat {
-            residual: row.value - interface,
-            by_arm: self.by_arm::<C>(&row, 1.0),
-            slope: row.by_heat * self.condensed.heat_factor,
-            pull: Arms::<K, D>::filled([0.0; D]),
-        }
-    }
 }
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
+impl<K: Kinematics<D>, const D: usize> Member<K, D> {
     /// Adds the contribution of the element to the entries of A and the rows of B.
     #[expect(
         clippy::inline_always,
@@ -156,22 +148,49 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     pub(super) fn add_share(
         &self,
         share: &Share<K, D>,
-        contacts: &[Contact<K, D>],
+        contacts: &Contacts<K, D>,
         (values, right): (&mut [f64], &mut [[f64; 1]]),
     ) {
         let heats = share.heat.as_ref().iter().zip(self.points.as_ref());
         for (heat, point) in heats {
-            if let (Some(heat), Some(contact)) = (heat, point.contact_in(contacts)) {
+            if let (Some(heat), Some((contact, own))) = (heat, contacts.of(point)) {
                 if share.momentum.is_some() {
-                    contact.add_pull(&self.site, &heat.pull, values);
+                    own.add_pull(contact, &self.site, &heat.pull, values);
                 }
-                contact.add_balance(&self.site, heat, values, right);
+                own.add_balance(contact, &self.site, heat, values, right);
             }
         }
         if let Some(momentum) = &share.momentum {
             self.site
                 .add_momentum(momentum, right.as_flattened_mut(), values);
         }
+    }
+}
+
+/// The contacts of a group: what points know of them, and their matrix indices.
+pub(super) struct Contacts<K: Kinematics<D>, const D: usize> {
+    pub(super) heat: Vec<HeatContact>,
+    pub(super) sites: Vec<ContactSite<K, D>>,
+}
+
+impl<K: Kinematics<D>, const D: usize> Contacts<K, D> {
+    pub(super) fn none() -> Self {
+        Self {
+            heat: Vec::new(),
+            sites: Vec::new(),
+        }
+    }
+
+    /// The contact of a point, if it conducts heat to other elements.
+    #[inline]
+    pub(super) fn of(
+        &self,
+        point: &PlacedPoint<K, D>,
+    ) -> Option<(&HeatContact, &ContactSite<K, D>)> {
+        Some((
+            point.contact_in(&self.heat)?,
+            point.contact_in(&self.sites)?,
+        ))
     }
 }
 
@@ -192,12 +211,18 @@ impl<K: Kinematics<D>, const D: usize> Site<K, D> {
     }
 }
 
-impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
+impl<K: Kinematics<D>, const D: usize> ContactSite<K, D> {
     /// Adds the derivatives of a vector per arm times `Σ κ (Θ_partner − Θ)` to the rows of the nodes.
     #[inline]
-    pub(super) fn add_pull(&self, site: &Site<K, D>, arms: &Arms<K, D>, values: &mut [f64]) {
+    pub(super) fn add_pull(
+        &self,
+        contact: &HeatContact,
+        site: &Site<K, D>,
+        arms: &Arms<K, D>,
+        values: &mut [f64],
+    ) {
         let mut sum = 0.0;
-        for (path, partner) in self.paths.iter().zip(&self.partners) {
+        for (path, partner) in contact.paths.iter().zip(&self.partners) {
             let mut by_partner = *arms;
             scale::<K, D>(&mut by_partner, path.conductance);
             sum += path.conductance;
@@ -212,20 +237,21 @@ impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
     #[inline]
     fn add_balance(
         &self,
+        contact: &HeatContact,
         site: &Site<K, D>,
         heat: &Heat<K, D>,
         values: &mut [f64],
         right: &mut [[f64; 1]],
     ) {
-        right[self.unknown as usize][0] += heat.residual;
+        right[contact.unknown as usize][0] += heat.residual;
         site.subtract_arms(&heat.by_arm, &self.row, values);
         let mut diagonal = 1.0;
-        for path in &self.paths {
+        for path in &contact.paths {
             let entry = heat.slope * path.conductance;
             values[path.entry as usize] += entry;
             diagonal -= entry;
         }
-        values[self.diagonal as usize] += diagonal;
+        values[contact.diagonal as usize] += diagonal;
     }
 }
 

@@ -23,24 +23,29 @@ pub(super) struct Site<K: Kinematics<D>, const D: usize> {
     pub(super) is_mass: K::PerNode<bool>,
 }
 
-/// The matrix indices of the interface temperature Θ of an element.
+/// The interface temperature Θ of a point, with its paths of heat to others.
 #[derive(Clone, Debug)]
-pub(super) struct Contact<K: Kinematics<D>, const D: usize> {
+pub(crate) struct HeatContact {
     /// The row of Θ.
     pub(super) unknown: u32,
     pub(super) diagonal: u32,
+    pub(super) paths: Vec<HeatPath>,
+}
+
+/// The matrix indices of the nodes of an element with the interface temperature of a point.
+#[derive(Clone, Debug)]
+pub(super) struct ContactSite<K: Kinematics<D>, const D: usize> {
     /// The first entry of each node in the row of Θ.
     pub(super) row: K::PerNode<u32>,
     /// The entry of the first row of each node in the column of Θ.
     pub(super) column: K::PerNode<u32>,
-    pub(super) paths: Vec<HeatPath>,
     /// Of each path.
     pub(super) partners: Vec<PartnerSite<K, D>>,
 }
 
 /// A path of heat to another element.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct HeatPath {
+pub(crate) struct HeatPath {
     /// The partner's thermal slot, and the row of its Θ.
     pub(super) slot: u32,
     pub(super) unknown: u32,
@@ -105,13 +110,13 @@ impl<K: Kinematics<D>, const D: usize> Site<K, D> {
     }
 }
 
-impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
-    /// The matrix indices of an element with these nodes and the thermal slot, if it is coupled.
+impl<K: Kinematics<D>, const D: usize> ContactSite<K, D> {
+    /// The contact of a point with this thermal slot and nodes, if it is coupled.
     pub(super) fn new(
         nodes: &K::PerNode<u32>,
         slot: Option<usize>,
         sites: &Sites<'_, D>,
-    ) -> Option<Self> {
+    ) -> Option<(HeatContact, Self)> {
         let slot = slot?;
         let unknown = sites.layout.coupled[slot]?;
         let per_node = |place: &dyn Fn(Option<usize>) -> usize| {
@@ -147,22 +152,34 @@ impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
                 row: per_node(&|node| sites.place(Some(theta), node)),
             });
         }
-        Some(Self {
+        let contact = HeatContact {
             unknown: compact(sites.row(Some(unknown))),
             diagonal: compact(sites.place(Some(unknown), Some(unknown))),
+            paths,
+        };
+        let own = Self {
             row: per_node(&|node| sites.place(Some(unknown), node)),
             column: column_of(unknown),
-            paths,
             partners,
-        })
+        };
+        Some((contact, own))
     }
 }
 
 /// The paths of heat of a contact, if there is one.
-pub(super) fn paths_of<K: Kinematics<D>, const D: usize>(
-    contact: Option<&Contact<K, D>>,
-) -> Option<&[HeatPath]> {
+pub(super) fn paths_of(contact: Option<&HeatContact>) -> Option<&[HeatPath]> {
     contact.map(|contact| &contact.paths[..])
+}
+
+impl HeatContact {
+    /// `Σ κ (δΘ_partner − δΘ)`, W.
+    #[inline]
+    pub(super) fn heat(&self, solution: &[[f64; 1]]) -> f64 {
+        let own = solution[self.unknown as usize][0];
+        self.paths.iter().fold(0.0, |sum, path| {
+            sum + path.conductance * (solution[path.unknown as usize][0] - own)
+        })
+    }
 }
 
 /// The distance between the entries of a column in the first two rows of a node.

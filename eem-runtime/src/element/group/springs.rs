@@ -5,7 +5,7 @@ use core::any::Any;
 
 use super::explicit::{ExplicitElements, ExplicitPoint};
 use super::interface::{ExplicitGroup, Loose};
-use super::loose::{LooseElements, MakeExplicit};
+use super::loose::{LooseElements, MakeExplicit, ModelList};
 use super::view::Placed;
 use crate::element::kinematics::Stretch;
 use eem_material::arrays::{Arrays, SpringArrays};
@@ -48,7 +48,7 @@ static SPACE: Springs<3> = Springs::HERE;
 pub(crate) fn group_of<A: Arrays, const D: usize>(
     make_explicit: MakeExplicit<D>,
 ) -> Box<dyn Loose<D>> {
-    Box::new(LooseElements::<A, Stretch<D>, D>::new(make_explicit))
+    Box::new(LooseElements::<Stretch<D>, D>::new::<A>(make_explicit))
 }
 
 impl<const D: usize> Springs<D> {
@@ -91,11 +91,14 @@ pub(crate) fn explicit<M: Material, A: Arrays, const D: usize>(
 ) -> Box<dyn ExplicitGroup<D>> {
     let all = loose
         .as_any()
-        .downcast_ref::<LooseElements<A, Stretch<D>, D>>();
+        .downcast_ref::<LooseElements<Stretch<D>, D>>();
     let all = all.unwrap_or_else(|| unreachable!("the group has made this function known"));
-    let points = all.elements.iter().map(|(element, [(model, stretch)])| {
+    let models = all.models.as_any().downcast_ref::<ModelList<A>>();
+    let models = models.unwrap_or_else(|| unreachable!("the models of a group are of one type"));
+    let elements = all.elements.iter().zip(&models.models);
+    let points = elements.map(|((element, [stretch]), model)| {
         let model = model.as_any().downcast_ref::<M>();
-        let model = model.unwrap_or_else(|| unreachable!("the models of a group are of one type"));
+        let model = model.unwrap_or_else(|| unreachable!("as above"));
         let slots = placed.layout.elements[element.index()];
         ExplicitPoint::new((*element, slots), model.duplicate(), *stretch)
     });

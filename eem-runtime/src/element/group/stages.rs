@@ -17,14 +17,15 @@ mod assemble;
 mod equations;
 mod geometry;
 mod models;
-mod of_material;
 mod point;
 mod projection;
 mod site;
 mod stage_group;
+mod stage_points;
 mod values;
 
-pub(crate) use of_material::OfMaterial;
+pub(crate) use models::{PathModels, ValueModels};
 pub(crate) use projection::{PointPath, Projections};
 pub(crate) use stage_group::StageGroup;
+pub(crate) use stage_points::StagePoints;
 pub(crate) use values::{StageValues, Values};

@@ -126,7 +126,7 @@ pub trait Kinematics<const D: usize>: Copy + Send + Sync + core::fmt::Debug + 's
     type PerPoint<T: Send + Sync>: Points<T>;
 
     /// The common part of the mean-value gradients between two states.
-    type Between: Copy + core::fmt::Debug;
+    type Between: Copy + Send + Sync + core::fmt::Debug;
 
     /// Whether an element can have these arms, whose measures are given.
     fn is_admissible(&self, r: &Arms<Self, D>, measures: &Measures<Self, D>) -> bool;

@@ -3,7 +3,7 @@
 
 use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
-use crate::element::group::arms::add_scaled;
+use crate::element::group::arms::{add_scaled, measures_in};
 use crate::element::group::certify::work_of;
 use crate::element::group::explicit::closed::Closed;
 use crate::element::group::explicit::group::ExplicitElements;
@@ -144,7 +144,9 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
         energy: &mut Energy,
     ) {
         let forces = &found.rates.forces.as_ref()[..Self::TEMPERATURE];
-        energy.add_forces(work_of(&self.kinematics, forces, r, &x));
+        let measures = measures_in::<K::Measures>(&x);
+        let sizes = self.kinematics.sizes(r, &measures);
+        energy.add_forces(work_of(forces, sizes.as_ref(), &x));
         let theta = found.theta;
         energy.add_values(found.values.update(energy.terms, || {
             if self.model.is_thermal() {

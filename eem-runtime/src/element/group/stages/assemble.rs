@@ -3,9 +3,8 @@
 use super::geometry::Geometry;
 use super::models::StageModels;
 use super::point::{LocalStages, StagedPoint};
-use super::site::{PerPair, StageSite};
+use super::site::{PerPair, StageContact, StageSite};
 use crate::element::group::arms::add_scaled;
-use crate::element::group::site::Contact;
 use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Blocks, Kinematics};
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
@@ -111,17 +110,17 @@ impl<K: Kinematics<D>, const D: usize> Target<'_, K, D> {
     fn add_heat(
         &mut self,
         set: usize,
-        contacts: &[Contact<K, D>],
+        contacts: &[StageContact<K, D>],
         impulses: &[Arms<K, D>; MOST_STAGES],
     ) {
         let (rule, site) = (self.rule, &self.site.sets[set][set]);
-        for (column, contact) in contacts.iter().enumerate().take(rule.sets()) {
+        for (column, (heat, own)) in contacts.iter().enumerate().take(rule.sets()) {
             let mut by_interface = Arms::<K, D>::filled([0.0; D]);
             for (stage, impulse) in impulses.iter().enumerate().take(rule.stages()) {
                 let share = rule.share(stage, column);
                 add_scaled::<K, D>(&mut by_interface, share, impulse);
             }
-            contact.add_pull(site, &by_interface, self.values);
+            own.add_pull(heat, site, &by_interface, self.values);
         }
     }
 
@@ -139,13 +138,13 @@ impl<K: Kinematics<D>, const D: usize> Target<'_, K, D> {
             let theta = models.temperature(point.place, self.local, set) + self.local.row[0];
             let by_arms = point.geometry.by_arms(bases, self.local);
             let by_heat = &self.local.row[1 + rule.sets() * G::FORCES..];
-            let own = &contacts[set];
+            let (own, _) = &contacts[set];
             let interface = trial.interface.values()[trial.interface.of_set(rule, set, slot)];
             self.right[own.unknown as usize][0] += theta - interface;
             self.values[own.diagonal as usize] += 1.0;
-            for (column, contact) in contacts.iter().enumerate().take(rule.sets()) {
+            for (column, (contact, nodes)) in contacts.iter().enumerate().take(rule.sets()) {
                 let site = &self.site.sets[set][column];
-                site.subtract_arms(&by_arms[column], &contact.row, self.values);
+                site.subtract_arms(&by_arms[column], &nodes.row, self.values);
                 // ∂θ/∂Θ of the set of the column
                 let by = by_heat.iter().enumerate();
                 let by = by.fold(0.0, |sum, (stage, &by)| {

@@ -23,7 +23,7 @@ pub(crate) trait Geometry<K: Kinematics<D>, const D: usize>:
     Sized + Send + Sync + 'static
 {
     /// The models of all points.
-    type Models: StageModels<K, D> + ?Sized + 'static;
+    type Models: StageModels<K::Measures> + ?Sized + 'static;
 
     /// The common part of [`direction`](Self::direction) and [`by_arms`](Self::by_arms).
     type Bases;

@@ -12,12 +12,12 @@
 //!
 //! except that an element with a thermostat has the prescribed `θ_i`.
 
-use super::site::{PerPair, StageSite};
+use super::site::{PerPair, StageContact, StageSite};
 use crate::algebra::lu::{self, Singular};
 use crate::algebra::vector;
 use crate::element::conduction::{InterfaceTemperatures, Partner};
 use crate::element::group::arms::{add_scaled, arms_in, change_in_set};
-use crate::element::group::site::{Contact, HeatPath};
+use crate::element::group::site::{HeatContact, HeatPath};
 use crate::element::group::view::{StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics};
@@ -40,7 +40,7 @@ pub(crate) struct StagedPoint<K: Kinematics<D>, G, const D: usize> {
     pub(super) slot: Option<usize>,
     pub(super) geometry: G,
     /// The matrix indices of its coupled interface temperatures, if it conducts heat to other elements.
-    pub(super) contacts: Option<PerPair<Contact<K, D>>>,
+    pub(super) contacts: Option<PerPair<StageContact<K, D>>>,
 }
 
 /// A point of an element, apart from its nodes and its conjugates.
@@ -217,8 +217,8 @@ impl<K: Kinematics<D>, G, const D: usize> StagedPoint<K, G, D> {
         let contacts = self.contacts.iter().flatten().enumerate();
         for (set, contacts) in contacts.take(rule.sets()) {
             let share = rule.share(stage, set);
-            let near = solution[contacts[set].unknown as usize][0];
-            for path in &contacts[set].paths {
+            let near = solution[contacts[set].0.unknown as usize][0];
+            for path in &contacts[set].0.paths {
                 let far = solution[path.unknown as usize][0];
                 change += share * path.conductance * (far - near);
             }
@@ -229,9 +229,9 @@ impl<K: Kinematics<D>, G, const D: usize> StagedPoint<K, G, D> {
 
 /// The paths of heat of each set.
 pub(super) fn paths_of<K: Kinematics<D>, const D: usize>(
-    contacts: &PerPair<Contact<K, D>>,
+    contacts: &PerPair<StageContact<K, D>>,
 ) -> [&[HeatPath]; MOST_SETS] {
-    vector(|set| &contacts[set][set].paths[..])
+    vector(|set| &contacts[set][set].0.paths[..])
 }
 
 impl InterfaceTemperatures {
@@ -252,7 +252,7 @@ fn excess(rule: &Tableau, stage: usize, slot: usize, view: &StepView<'_>) -> f64
     })
 }
 
-impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
+impl HeatContact {
     /// `Σ κ`, W/K.
     pub(super) fn conductance(&self) -> f64 {
         let paths = self.paths.iter();

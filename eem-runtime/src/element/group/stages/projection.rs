@@ -73,7 +73,7 @@ type PerComponent<K, T, const D: usize> =
     <<K as QuadraticStrain<D>>::Strain as StrainMeasures>::PerStrain<T>;
 
 impl<K: QuadraticStrain<D>, const D: usize> Geometry<K, D> for Projections<K, D> {
-    type Models = dyn PathModels<K, D>;
+    type Models = dyn PathModels<K::Strain>;
 
     type Bases = Directions<K, D>;
 

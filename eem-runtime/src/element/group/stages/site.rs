@@ -5,7 +5,7 @@
 //! side per axis.
 
 use crate::element::group::closing::pull_of_arms;
-use crate::element::group::site::{Contact, Site};
+use crate::element::group::site::{ContactSite, HeatContact, Site};
 use crate::element::group::view::Sites;
 use crate::element::kinematics::{Arms, Kinematics, Weights};
 use crate::element::tableau::{MOST_SETS, Tableau};
@@ -14,6 +14,9 @@ use eem_material::number::compact::compact;
 
 /// A value for every pair of sets of unknowns: that of the rows, then that of the columns.
 pub(super) type PerPair<T> = [[T; MOST_SETS]; MOST_SETS];
+
+/// The interface temperature of a point in a pair of sets, and the matrix indices of its nodes.
+pub(super) type StageContact<K, const D: usize> = (HeatContact, ContactSite<K, D>);
 
 /// The matrix indices of one element.
 #[derive(Clone, Debug)]
@@ -115,8 +118,9 @@ pub(super) fn contacts<K: Kinematics<D>, const D: usize>(
     nodes: &K::PerNode<u32>,
     slot: Option<usize>,
     sites: &Sites<'_, D>,
-) -> Option<PerPair<Contact<K, D>>> {
-    let contacts: PerPair<_> = pairs(|sets| Contact::new(nodes, slot, &of_sets(rule, sites, sets)));
+) -> Option<PerPair<StageContact<K, D>>> {
+    let contacts: PerPair<_> =
+        pairs(|sets| ContactSite::new(nodes, slot, &of_sets(rule, sites, sets)));
     let is_coupled = contacts.iter().flatten().all(Option::is_some);
     let there = |contact: Option<_>| contact.unwrap_or_else(|| unreachable!("all of them are"));
     is_coupled.then(|| contacts.map(|row| row.map(there)))

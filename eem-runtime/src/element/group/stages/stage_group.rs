@@ -10,15 +10,20 @@ use super::models::StageModels;
 use super::point::{LocalStages, StageArms, StageMember, StagedPoint, paths_of};
 use super::site::{StageSite, contacts};
 use crate::algebra::system::LinearSystem;
+use crate::element::conjugates::{OneSet, PointRule};
 use crate::element::error::StateError;
 use crate::element::group::arms::arms_in;
 use crate::element::group::begin::shorten;
+use crate::element::group::elements::Blocks;
 use crate::element::group::interface::{Elements, Group, Loose};
+use crate::element::group::loose::LooseElements;
+use crate::element::group::member::Member;
 use crate::element::group::placed::admissible;
-use crate::element::group::view::{Along, Old, Sites, StepView, Trial};
+use crate::element::group::points::HasPoints;
+use crate::element::group::view::{Along, Old, Placed, Sites, StepView, Trial};
 use crate::element::group::ways::StageWays;
 use crate::element::impulse::Impulses;
-use crate::element::kinematics::{Arms, Kinematics, Points, QuadraticStrain, add_blocks};
+use crate::element::kinematics::{Arms, QuadraticStrain, add_blocks};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::element::tally::{Care, Reevaluation, Tally};
@@ -26,38 +31,58 @@ use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 
 /// Elements of one model with the kinematics `K`, whose points have the geometry `G`.
-pub(crate) struct StageGroup<K: Kinematics<D>, G: Geometry<K, D>, const D: usize> {
+pub(crate) struct StageGroup<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> {
     rule: &'static Tableau,
-    models: Box<G::Models>,
+    /// In one block.
+    elements: Blocks<K, G::Models, D>,
+    /// Their models are in the block.
+    loose: LooseElements<K, D>,
     members: Vec<StageMember<K, G, D>>,
     local: LocalStages,
     /// The forces of one element.
     forces: Box<StageForces<K, D>>,
 }
 
-impl<K: Kinematics<D>, G: Geometry<K, D>, const D: usize> StageGroup<K, G, D> {
-    pub(crate) fn new(rule: &'static Tableau, models: Box<G::Models>) -> Self {
+impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> StageGroup<K, G, D> {
+    /// Elements whose models have been given to these points.
+    pub(crate) fn new(
+        rule: &'static Tableau,
+        loose: LooseElements<K, D>,
+        models: Box<G::Models>,
+        placed: Placed<'_>,
+    ) -> Self {
         let [unknowns, inputs] = models.unknowns_and_inputs();
-        let mut members = Vec::new();
-        for site in models.sites() {
-            let first = members.len() * K::PerPoint::<()>::LEN;
-            let places = first..first + K::PerPoint::<()>::LEN;
-            let point = |place: usize| StagedPoint {
-                place,
-                element: models.elements().handle(place),
-                slot: models.elements().slots(place).thermal,
-                geometry: G::new(rule, models.kinematics(place)),
-                contacts: None,
-            };
+        let scheme = OneSet::Point(PointRule::Variational);
+        let (mut members, mut elements, mut place) = (Vec::new(), Vec::new(), 0);
+        for element in &loose.elements {
+            let own = Member::new(scheme, element, placed);
+            let mut points = Vec::with_capacity(Member::<K, D>::POINTS);
+            for &kinematics in element.1.as_ref() {
+                let (handle, slots) = models.in_state().place(place);
+                points.push(StagedPoint {
+                    place,
+                    element: handle,
+                    slot: slots.thermal,
+                    geometry: G::new(rule, kinematics),
+                    contacts: None,
+                });
+                place += 1;
+            }
             members.push(StageMember {
-                site: StageSite::unconnected(site),
-                points: places.map(point).collect(),
+                site: StageSite::unconnected(own.site),
+                points,
             });
+            elements.push(own);
         }
+        let per_block = elements.len().max(1);
         Self {
             rule,
-            models,
+            elements: Blocks::new(elements, vec![models], per_block),
             members,
+            loose: LooseElements {
+                elements: Vec::new(),
+                ..loose
+            },
             forces: Box::new(StageForces::zero()),
             local: LocalStages::new(unknowns, inputs),
         }
@@ -84,16 +109,23 @@ impl<K: Kinematics<D>, G: Geometry<K, D>, const D: usize> StageGroup<K, G, D> {
                 right: &mut *right,
             };
             for point in &stages.points {
-                self.models.condense(point.place, target.local, view)?;
+                self.elements.blocks[0]
+                    .points
+                    .condense(point.place, target.local, view)?;
                 let bases = point.geometry.bases();
-                target.add_forces(&*self.models, point, &bases);
+                target.add_forces(&*self.elements.blocks[0].points, point, &bases);
                 for set in 0..rule.sets() {
                     let blocks = &mut target.forces.blocks[rule.stage_of(set)][set];
-                    let at = (&*self.models, point.place);
+                    let at = (&*self.elements.blocks[0].points, point.place);
                     add_blocks::<K, D>(blocks, &point.geometry.geometric_stiffness(at, set, &arms));
                 }
                 if let Some(slot) = point.slot {
-                    target.add_temperatures(&*self.models, point, &bases, (slot, trial));
+                    target.add_temperatures(
+                        &*self.elements.blocks[0].points,
+                        point,
+                        &bases,
+                        (slot, trial),
+                    );
                 }
             }
             target.add_impulses();
@@ -104,15 +136,18 @@ impl<K: Kinematics<D>, G: Geometry<K, D>, const D: usize> StageGroup<K, G, D> {
 
 impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> Group<D> for StageGroup<K, G, D> {
     fn elements(&self) -> &dyn Elements<D> {
-        self.models.elements()
+        &self.elements
     }
 
     fn elements_mut(&mut self) -> &mut dyn Elements<D> {
-        self.models.elements_mut()
+        &mut self.elements
     }
 
     fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>> {
-        self.models.into_loose()
+        let mut loose = self.loose;
+        let mut take_back = |own| loose.models.take_back(own);
+        let elements = self.elements.into_loose(&mut take_back);
+        Box::new(LooseElements { elements, ..loose })
     }
 
     fn connect(&mut self, sites: &Sites<'_, D>) {
@@ -133,7 +168,7 @@ impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> Group<D> for Stag
                 let kinematics = point.geometry.kinematics();
                 let measures = kinematics.measure(&r0);
                 shorten::<K, D>(nodes, kinematics.length(&measures), old.lengths);
-                let at = (&mut *self.models, point.place);
+                let at = (&mut *self.elements.blocks[0].points, point.place);
                 point.geometry.begin(at, (&r0, &measures), view);
             }
         }
@@ -149,7 +184,7 @@ impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> Group<D> for Stag
         for stages in &mut self.members {
             let arms = StageArms::new(self.rule, &stages.site.first().nodes, (view, trial));
             for point in &mut stages.points {
-                let at = (&mut *self.models, point.place);
+                let at = (&mut *self.elements.blocks[0].points, point.place);
                 let view = (view, &trial.interface);
                 (point.geometry).evaluate(at, point.element, view, &arms)?;
             }
@@ -174,18 +209,21 @@ impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> Group<D> for Stag
                 for (stage, input) in heat.iter_mut().enumerate() {
                     *input = point.heat_change(rule, stage, solution);
                 }
-                largest = Scalar::maximum(largest, self.models.correct(point.place, local));
+                largest = Scalar::maximum(
+                    largest,
+                    self.elements.blocks[0].points.correct(point.place, local),
+                );
             }
         }
         largest
     }
 
     fn apply(&mut self, share: f64) {
-        self.models.apply(share);
+        self.elements.blocks[0].points.apply(share);
     }
 
     fn hold(&mut self) {
-        self.models.hold();
+        self.elements.blocks[0].points.hold();
     }
 
     fn add_impulse(
@@ -203,7 +241,7 @@ impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> Group<D> for Stag
             let nodes = &stages.site.first().nodes;
             let arms = StageArms::new(self.rule, nodes, (view, trial));
             for point in &stages.points {
-                let at = (&*self.models, point.place);
+                let at = (&*self.elements.blocks[0].points, point.place);
                 let force = point.geometry.nodal_force(at, stage, &arms);
                 for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
                     for (sum, &force) in impulses.of(node as usize).iter_mut().zip(force) {
@@ -211,7 +249,7 @@ impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> Group<D> for Stag
                     }
                 }
                 if stage == 0 && !magnitudes.is_empty() {
-                    let at = (&mut *self.models, point.place);
+                    let at = (&mut *self.elements.blocks[0].points, point.place);
                     let magnitude = point.geometry.impulse_size(at, view.step);
                     for &node in nodes.as_ref() {
                         magnitudes[node as usize] += magnitude;
@@ -236,7 +274,9 @@ impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> Group<D> for Stag
             let mut known = arms_in::<K, D>(&site.nodes, &view.state.positions);
             site.add_anchors(&mut known, trial.displacements_of_set(set));
             for point in &stages.points {
-                let weights = point.geometry.secant((&*self.models, point.place), stage);
+                let weights = point
+                    .geometry
+                    .secant((&*self.elements.blocks[0].points, point.place), stage);
                 stages.site.add_secant(&weights, impulse, values);
                 site.subtract_known(&weights, (&known, impulse), right);
             }
@@ -262,14 +302,19 @@ impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> Group<D> for Stag
             } in &stages.points
             {
                 let measures = admissible(geometry.kinematics(), *element, &r1)?;
-                geometry.see_impulse((&*self.models, *place), view.step, tally);
+                geometry.see_impulse((&*self.elements.blocks[0].points, *place), view.step, tally);
                 let outside = (contacts.as_ref().map(paths_of), &trial.interface);
-                (self.models).close(*place, &measures, (view, outside), (next, tally))?;
+                (self.elements.blocks[0].points).close(
+                    *place,
+                    &measures,
+                    (view, outside),
+                    (next, tally),
+                )?;
             }
             if tally.care == Care::Thorough {
                 let ways = StageWays::new(self.rule, nodes.as_ref(), (view, trial));
                 for point in &stages.points {
-                    let at = (&*self.models, point.place);
+                    let at = (&*self.elements.blocks[0].points, point.place);
                     tally.force(point.geometry.work_along(at, &ways, &r1));
                 }
             }
@@ -278,6 +323,16 @@ impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> Group<D> for Stag
     }
 
     fn reevaluate(&self, ends: [&State; 2], reevaluation: &mut Reevaluation) {
-        self.models.reevaluate(ends, reevaluation);
+        let block = &self.elements.blocks[0];
+        if !block.points.is_reevaluated() {
+            return;
+        }
+        for (first, member) in block.elements() {
+            for (place, point) in (first..).zip(member.points.as_ref()) {
+                let (measures, increments) = point.increments_between(&member.site.nodes, ends);
+                let of_nodes = (measures.each_ref(), &increments);
+                block.points.reevaluate(place, of_nodes, ends, reevaluation);
+            }
+        }
     }
 }

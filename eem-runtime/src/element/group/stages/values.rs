@@ -36,7 +36,7 @@ pub(crate) struct Values<K: Kinematics<D>, const D: usize> {
 }
 
 impl<K: Kinematics<D>, const D: usize> Geometry<K, D> for Values<K, D> {
-    type Models = dyn ValueModels<K, D>;
+    type Models = dyn ValueModels<K::Measures>;
 
     type Bases = ();
 

@@ -1,54 +1,51 @@
-//! The points of one material at the stages.
+//! The points of one model at the stages.
+
+use core::any::Any;
 
 use super::equations::StageEquations;
-use super::models::{PathModels, StageModels, StrainOf, ValueModels};
+use super::models::{PathModels, StageModels, ValueModels};
 use super::point::{LocalStages, Outside, StagePoint};
 use super::projection::PointPath;
 use super::values::StageValues;
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::{OneSet, PointRule};
 use crate::element::error::StateError;
-use crate::element::group::element_group::ElementGroup;
-use crate::element::group::interface::{Elements, Loose};
-use crate::element::group::loose::LooseElements;
-use crate::element::group::placed::PlacedPoint;
-use crate::element::group::point::variables;
-use crate::element::group::site::Site;
-use crate::element::group::view::{Placed, StepView};
-use crate::element::kinematics::{Kinematics, MeasureSet, Measures, Points, QuadraticStrain};
+use crate::element::group::model_points::ModelPoints;
+use crate::element::group::point::Point;
+use crate::element::group::points::{HasPoints, PointPlace, PointsInState};
+use crate::element::group::view::StepView;
+use crate::element::kinematics::{MeasureSet, Numbers, PerStrain, StrainMeasures};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_STAGES, Tableau};
 use crate::element::tally::{Reevaluation, Tally};
 use eem_material::arrays::Arrays;
+use eem_material::tabled::Tabled;
 
-/// The points of all elements of the model `A`, with equations `E`.
-pub(crate) struct OfMaterial<A: Arrays, K: Kinematics<D>, E, const D: usize> {
+/// The points of models in the arrays `A`, with equations `E`.
+pub(crate) struct StagePoints<A: Arrays, Q: MeasureSet, E> {
     rule: &'static Tableau,
-    /// The elements in a state.
-    elements: ElementGroup<A, K, D>,
+    in_state: ModelPoints<A, Q>,
     equations: Vec<E>,
 }
 
-impl<A: Arrays, K: Kinematics<D>, E: StageEquations<A, K::Measures>, const D: usize>
-    OfMaterial<A, K, E, D>
-{
-    /// The elements, with equations for a kind of kinematics and a point of the rule.
+impl<A: Arrays, Q: MeasureSet, E: StageEquations<A, Q>> StagePoints<A, Q, E> {
+    /// The points of these models at their places, with equations for a point of the rule.
     pub(crate) fn new(
         rule: &'static Tableau,
-        elements: LooseElements<A, K, D>,
-        placed: Placed<'_>,
-        equations: impl Fn(&K, StagePoint) -> E,
+        models: Vec<Tabled<A>>,
+        places: &[PointPlace],
+        equations: &mut dyn FnMut(StagePoint) -> E,
     ) -> Self {
         let scheme = OneSet::Point(PointRule::Variational);
         let mut all = Self {
             rule,
-            elements: ElementGroup::new(scheme, elements, placed),
-            equations: Vec::new(),
+            in_state: ModelPoints::new(scheme, &mut models.into_iter(), places),
+            equations: Vec::with_capacity(places.len()),
         };
         let [unknowns, inputs] = all.unknowns_and_inputs();
         let (dashpots, is_thermal) = all.dashpots_and_temperature();
-        for point in all.elements.points() {
-            let staged = StagePoint {
+        for _ in places {
+            all.equations.push(equations(StagePoint {
                 rule,
                 dashpots,
                 is_thermal,
@@ -56,16 +53,15 @@ impl<A: Arrays, K: Kinematics<D>, E: StageEquations<A, K::Measures>, const D: us
                 prescribed: None,
                 viscous_unit: 1.0,
                 solved: vec![0.0; (1 + inputs) * unknowns],
-            };
-            all.equations.push(equations(&point.kinematics, staged));
+            }));
         }
         all
     }
 
     /// Number of dashpots in series of every point, and whether they have a temperature.
     fn dashpots_and_temperature(&self) -> (usize, bool) {
-        match self.elements.members.first() {
-            Some(first) => (first.only().dashpots(), first.only().is_thermal()),
+        match self.in_state.points.first() {
+            Some(first) => (first.dashpots(), first.is_thermal()),
             None => (0, false),
         }
     }
@@ -79,42 +75,26 @@ impl<A: Arrays, K: Kinematics<D>, E: StageEquations<A, K::Measures>, const D: us
     }
 
     /// A point with its equations.
-    fn at(&mut self, place: usize) -> (&mut PlacedPoint<A, K, D>, &mut E) {
-        let points = K::PerPoint::<()>::LEN;
-        let member = &mut self.elements.members[place / points];
-        let point = &mut member.points.as_mut()[place % points];
-        (point, &mut self.equations[place])
+    fn at(&mut self, place: usize) -> (&mut Point<A, Q>, &mut E) {
+        (&mut self.in_state.points[place], &mut self.equations[place])
     }
 }
 
-impl<A: Arrays, K: QuadraticStrain<D>, E: StageEquations<A, K::Measures>, const D: usize>
-    StageModels<K, D> for OfMaterial<A, K, E, D>
-{
-    fn elements(&self) -> &dyn Elements<D> {
-        &self.elements
+impl<A: Arrays, Q: MeasureSet, E: StageEquations<A, Q>> HasPoints<Q> for StagePoints<A, Q, E> {
+    fn in_state(&self) -> &dyn PointsInState<Q> {
+        &self.in_state
     }
 
-    fn elements_mut(&mut self) -> &mut dyn Elements<D> {
-        &mut self.elements
+    fn in_state_mut(&mut self) -> &mut dyn PointsInState<Q> {
+        &mut self.in_state
     }
 
-    fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>> {
-        Box::new(self.elements.into_loose())
+    fn into_models(self: Box<Self>) -> Box<dyn Any> {
+        Box::new(self.in_state).into_models()
     }
+}
 
-    fn sites(&self) -> Vec<Site<K, D>> {
-        let mut sites = Vec::with_capacity(self.elements.members.len());
-        for member in &self.elements.members {
-            sites.push(member.site);
-        }
-        sites
-    }
-
-    fn kinematics(&self, place: usize) -> K {
-        let (member, point) = self.elements.at(place);
-        member.points.as_ref()[point].kinematics
-    }
-
+impl<A: Arrays, Q: MeasureSet, E: StageEquations<A, Q>> StageModels<Q> for StagePoints<A, Q, E> {
     fn unknowns_and_inputs(&self) -> [usize; 2] {
         Self::unknowns_and_inputs(self)
     }
@@ -122,12 +102,12 @@ impl<A: Arrays, K: QuadraticStrain<D>, E: StageEquations<A, K::Measures>, const 
     fn begin(
         &mut self,
         place: usize,
-        (measures, strain): (&Measures<K, D>, &[f64]),
+        (measures, strain): (&Numbers<Q>, &[f64]),
         view: &StepView<'_>,
     ) {
         let (point, equations) = self.at(place);
-        let x0 = variables(&point.model, measures.as_ref(), point.slots(), view.state);
-        let unit = K::Measures::unit(measures);
+        let x0 = point.variables_in(measures, view.state);
+        let unit = Q::unit(measures);
         (equations.point_mut()).begin(unit, point.slots().thermal, view);
         equations.begin(point, &x0, strain);
         equations.hold();
@@ -174,7 +154,7 @@ impl<A: Arrays, K: QuadraticStrain<D>, E: StageEquations<A, K::Measures>, const 
     fn close(
         &mut self,
         place: usize,
-        measures: &Measures<K, D>,
+        measures: &Numbers<Q>,
         view_and_outside: (&StepView<'_>, Outside<'_>),
         next_and_tally: (&mut State, &mut Tally),
     ) -> Result<(), StateError> {
@@ -182,67 +162,71 @@ impl<A: Arrays, K: QuadraticStrain<D>, E: StageEquations<A, K::Measures>, const 
         equations.close(point, measures, view_and_outside, next_and_tally)
     }
 
-    fn reevaluate(&self, ends: [&State; 2], reevaluation: &mut Reevaluation) {
-        for (place, equations) in self.equations.iter().enumerate() {
-            let Some(found) = equations.change_of_energy() else {
-                return;
-            };
-            let (member, point) = self.elements.at(place);
-            let point = &member.points.as_ref()[point];
-            let own = point.balance_between(&member.site.nodes, ends);
-            reevaluation.element(point.element, own.by_values, own.by_differences, found);
-        }
+    fn is_reevaluated(&self) -> bool {
+        let first = self.equations.first();
+        first.is_some_and(|first| first.change_of_energy().is_some())
+    }
+
+    fn reevaluate(
+        &self,
+        place: usize,
+        of_nodes: ([&Numbers<Q>; 2], &Numbers<Q>),
+        ends: [&State; 2],
+        reevaluation: &mut Reevaluation,
+    ) {
+        let Some(found) = self.equations[place].change_of_energy() else {
+            return;
+        };
+        let point = &self.in_state.points[place];
+        let own = point.balance_between(of_nodes, ends);
+        reevaluation.element(point.element, own.by_values, own.by_differences, found);
     }
 }
 
-impl<A: Arrays, K: QuadraticStrain<D>, const D: usize> PathModels<K, D>
-    for OfMaterial<A, K, PointPath<A, K::Strain>, D>
-{
+impl<A: Arrays, G: StrainMeasures> PathModels<G> for StagePoints<A, G::Measures, PointPath<A, G>> {
     fn evaluate(
         &mut self,
         place: usize,
-        strain_rates: &[StrainOf<K, D>; MOST_STAGES],
+        strain_rates: &[PerStrain<G>; MOST_STAGES],
         view_and_interface: (&StepView<'_>, &InterfaceTemperatures),
     ) -> Result<(), StateError> {
         let (point, path) = self.at(place);
         path.evaluate(point, strain_rates, view_and_interface)
     }
 
-    fn stress(&self, place: usize, stage: usize) -> StrainOf<K, D> {
+    fn stress(&self, place: usize, stage: usize) -> PerStrain<G> {
         self.equations[place].conjugates[stage].strain
     }
 
-    fn limited_stress(&self, place: usize, stage: usize) -> StrainOf<K, D> {
+    fn limited_stress(&self, place: usize, stage: usize) -> PerStrain<G> {
         self.equations[place].limited_stress(stage)
     }
 
-    fn stress_at_end(&self, place: usize) -> StrainOf<K, D> {
+    fn stress_at_end(&self, place: usize) -> PerStrain<G> {
         self.equations[place].end_slopes[1].strain
     }
 
-    fn conditioned_stress(&mut self, place: usize) -> [StrainOf<K, D>; MOST_STAGES] {
+    fn conditioned_stress(&mut self, place: usize) -> [PerStrain<G>; MOST_STAGES] {
         let (point, path) = self.at(place);
         path.conditioned_stress(point)
     }
 }
 
-impl<A: Arrays, K: QuadraticStrain<D>, const D: usize> ValueModels<K, D>
-    for OfMaterial<A, K, StageValues<A>, D>
-{
+impl<A: Arrays, Q: MeasureSet> ValueModels<Q> for StagePoints<A, Q, StageValues<A>> {
     fn evaluate(
         &mut self,
         place: usize,
-        (stage, measures): (usize, Option<&Measures<K, D>>),
+        (stage, measures): (usize, Option<&Numbers<Q>>),
         view_and_interface: (&StepView<'_>, &InterfaceTemperatures),
     ) -> Result<(), StateError> {
         let (point, values) = self.at(place);
         if let Some(measures) = measures {
             values.set_measures(stage, measures.as_ref());
         }
-        values.evaluate(&mut point.point, stage, view_and_interface)
+        values.evaluate(point, stage, view_and_interface)
     }
 
-    fn measures_and_forces(&self, place: usize, stage: usize) -> [Measures<K, D>; 2] {
-        self.equations[place].measures_and_forces::<K::Measures>(stage)
+    fn measures_and_forces(&self, place: usize, stage: usize) -> [Numbers<Q>; 2] {
+        self.equations[place].measures_and_forces::<Q>(stage)
     }
 }

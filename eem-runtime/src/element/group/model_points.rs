@@ -1,0 +1,628 @@
+//! The points of one model, in a state and in a step.
+
+use core::any::Any;
+
+use super::ahead::Ahead;
+use super::arms::measures_in;
+use super::audit::Misfit;
+use super::certify::sizes_of;
+use super::generic::PointGeneric;
+use super::inspect::digest_kind;
+use super::point::{Point, variables};
+#[cfg(feature = "gradients")]
+use super::point_step::SeeParameters;
+use super::points::{
+    Changes, Exchange, HasPoints, Measured, PointEnd, PointPlace, PointSet, PointsInState,
+    TrialView,
+};
+use super::site::{HeatContact, paths_of};
+use super::stiffness::{Stiffness, stiffness_of};
+use super::view::{Before, ElementTotals, ElementView, StepView};
+use crate::element::conduction::Conduction;
+use crate::element::conjugates::{Any as AnyScheme, Exact, Family, Form, OneSet};
+use crate::element::error::StateError;
+use crate::element::kinematics::{MeasureSet, Numbers};
+use crate::element::state::{Energy, State};
+use crate::element::tally::{Care, Reevaluation, Tally};
+use eem_material::arrays::Arrays;
+use eem_material::free_energy::{Array, Caloric};
+use eem_material::number::digest::Digest;
+use eem_material::number::scalar::Scalar;
+use eem_material::tabled::Tabled;
+
+/// Points of the models `A`.
+pub(super) struct ModelPoints<A: Arrays, Q: MeasureSet> {
+    scheme: OneSet,
+    pub(super) points: Vec<Point<A, Q>>,
+    /// See [`Old::by_factors`](super::view::Old::by_factors).
+    by_factors: bool,
+    /// Workspace for points that are evaluated in one call.
+    ahead: Option<Box<Ahead<A>>>,
+    #[cfg(feature = "gradients")]
+    pub(super) linearized: Option<Box<super::push_forward::Linearized<A>>>,
+}
+
+impl<A: Arrays, Q: MeasureSet> ModelPoints<A, Q> {
+    /// The points of these models at their places.
+    pub(super) fn new(
+        scheme: OneSet,
+        models: &mut dyn Iterator<Item = Tabled<A>>,
+        places: &[PointPlace],
+    ) -> Self {
+        // A loop: collected, it takes four times the code.
+        let mut points = Vec::with_capacity(places.len());
+        for (&(element, slots), model) in places.iter().zip(models) {
+            points.push(Point::new(scheme, element, model, slots));
+        }
+        let ahead = if const { Q::IS_SPRING } {
+            Ahead::new(&points)
+        } else {
+            None
+        };
+        Self {
+            scheme,
+            points,
+            by_factors: false,
+            ahead,
+            #[cfg(feature = "gradients")]
+            linearized: None,
+        }
+    }
+
+    /// The variables of a point in a state with these measures.
+    fn x(&self, index: usize, measures: &Numbers<Q>, state: &State) -> A::Variables {
+        self.points[index].variables_in(measures, state)
+    }
+}
+
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
+    /// Its variables in a state with these measures.
+    #[inline]
+    pub(super) fn variables_in(&self, measures: &Numbers<Q>, state: &State) -> A::Variables {
+        variables(&self.model, measures.as_ref(), self.slots(), state)
+    }
+}
+
+impl<A: Arrays, Q: MeasureSet> HasPoints<Q> for ModelPoints<A, Q> {
+    fn in_state(&self) -> &dyn PointsInState<Q> {
+        self
+    }
+
+    fn in_state_mut(&mut self) -> &mut dyn PointsInState<Q> {
+        self
+    }
+
+    fn into_models(self: Box<Self>) -> Box<dyn Any> {
+        let mut models = Vec::with_capacity(self.points.len());
+        for point in self.points {
+            models.push(point.model);
+        }
+        Box::new(models)
+    }
+}
+
+impl<A: Arrays, Q: MeasureSet> PointsInState<Q> for ModelPoints<A, Q> {
+    fn place(&self, index: usize) -> PointPlace {
+        (self.points[index].element, self.points[index].slots())
+    }
+
+    fn initialize(
+        &mut self,
+        index: usize,
+        [measures, sizes]: [&Numbers<Q>; 2],
+        state: &mut State,
+    ) -> Result<(), StateError> {
+        let x = self.x(index, measures, state);
+        let point = &mut self.points[index];
+        let mut energy = point.initialize(&x, state)?;
+        point.add_bounds(sizes, &x, &mut energy);
+        state.energies[point.element.index()] = energy;
+        Ok(())
+    }
+
+    fn energy(&self, index: usize, at: &Measured<'_, Q>) -> Energy {
+        let (x, point) = (self.x(index, at.measures, at.state), &self.points[index]);
+        let mut energy = point.energy_in(&x, at.state);
+        point.add_bounds(at.sizes, &x, &mut energy);
+        energy
+    }
+
+    fn add_totals(
+        &self,
+        index: usize,
+        measures: &Numbers<Q>,
+        state: &State,
+        totals: &mut ElementTotals,
+    ) {
+        let (x, point) = (self.x(index, measures, state), &self.points[index]);
+        totals.energy.add(point.internal_energy(&x, state));
+        if let Some(slot) = point.slots().thermal {
+            totals.entropy.add_sum(state.entropies.sum(slot));
+            totals.entropy_of_state.add(point.model.caloric(&x).entropy);
+        }
+    }
+
+    fn view(&self, index: usize, measures: &Numbers<Q>, state: &State) -> ElementView {
+        let (x, point) = (self.x(index, measures, state), &self.points[index]);
+        ElementView {
+            measure: x[0],
+            force: point.model.gradient(&x)[0],
+            internal_energy: point.internal_energy(&x, state),
+        }
+    }
+
+    fn forces(&self, index: usize, measures: &Numbers<Q>, state: &State) -> Numbers<Q> {
+        let x = self.x(index, measures, state);
+        measures_in::<Q>(&self.points[index].model.gradient(&x))
+    }
+
+    fn dissipation(&self, index: usize, [measures, rates]: [&Numbers<Q>; 2], state: &State) -> f64 {
+        let (x, point) = (self.x(index, measures, state), &self.points[index]);
+        let mut power = point.power_in_series(&x);
+        let (drags, _) = point.model.drag(x[A::Variables::LEN - 1]);
+        for (&drag, &rate) in drags.as_ref().iter().zip(rates.as_ref()) {
+            power += drag * rate * rate;
+        }
+        power
+    }
+
+    fn stiffness<'a>(
+        &self,
+        index: usize,
+        at: &Measured<'_, Q>,
+        (nodes, length, slopes): (&'a [u32], f64, &Numbers<Q>),
+    ) -> Stiffness<'a> {
+        let (x, point) = (self.x(index, at.measures, at.state), &self.points[index]);
+        let of = (&point.model, nodes, point.slots());
+        stiffness_of::<A, Q>(of, &x, (length, slopes, at.sizes))
+    }
+
+    fn take_derivatives(&mut self, index: usize, measures: &Numbers<Q>, state: &State) {
+        let x = self.x(index, measures, state);
+        self.points[index].take_derivatives(&x);
+    }
+
+    fn generic(&self, index: usize) -> PointGeneric<Q> {
+        self.points[index].generic()
+    }
+
+    fn entropy_slopes(&self, index: usize) -> (Numbers<Q>, Vec<f64>, f64) {
+        self.points[index].entropy_slopes()
+    }
+
+    fn digest(&self, index: usize, is_first: bool, digest: &mut Digest) {
+        let point = &self.points[index];
+        if is_first {
+            digest_kind(&point.model, digest);
+        }
+        point.digest(digest);
+    }
+
+    fn audit(&self, index: usize, measures: &Numbers<Q>, state: &State) -> Result<(), Misfit> {
+        let (x, point) = (self.x(index, measures, state), &self.points[index]);
+        point.audit_response(&x)?;
+        point.audit_entropy(&x, state)
+    }
+
+    #[cfg(feature = "gradients")]
+    fn parameters(&self) -> (&'static [&'static str], &'static [&'static str], bool) {
+        // The models of a group are of one kind.
+        let Some(first) = self.points.first() else {
+            return (&[], &[], false);
+        };
+        let facts = first.model.facts();
+        (
+            first.model.parameter_names(),
+            facts.parameter_units,
+            facts.has_parameter_derivatives,
+        )
+    }
+
+    #[cfg(feature = "gradients")]
+    fn parameter(&self, index: usize, parameter: usize) -> f64 {
+        self.points[index].model.parameter(parameter)
+    }
+
+    #[cfg(feature = "gradients")]
+    fn energy_by_parameters(
+        &self,
+        index: usize,
+        measures: &Numbers<Q>,
+        state: &State,
+        see: &mut SeeParameters<'_>,
+    ) {
+        let (x, point) = (self.x(index, measures, state), &self.points[index]);
+        let mut found = vec![0.0; point.model.facts().derivatives];
+        point.model.energy_by_parameters(&x, &mut found);
+        see(point.element, &found);
+    }
+}
+
+/// The functions of a step, for a family of schemes.
+impl<A: Arrays, Q: MeasureSet> ModelPoints<A, Q> {
+    /// Whether the functions of exact schemes are compiled apart from those of all schemes. Not for arrays with room: it would take a step
+    /// 12 % fewer instructions, and the runtime 5 % longer to compile.
+    const IS_SEPARATE: bool = A::Drag::LEN == 0;
+
+    /// Whether those of exact schemes are to be called.
+    #[inline]
+    fn is_exact(&self) -> bool {
+        Self::IS_SEPARATE && matches!(self.scheme, OneSet::Exact(_))
+    }
+
+    fn begin_as<C: Family>(
+        &mut self,
+        view: &StepView<'_>,
+        before: Option<&Before<'_>>,
+        measures: &[Numbers<Q>],
+    ) {
+        for (point, measures) in self.points.iter_mut().zip(measures) {
+            point.begin::<C>(view, before, measures);
+        }
+        if let Some(ahead) = &mut self.ahead
+            && ahead.keep(self.scheme, &mut self.points)
+        {
+            return;
+        }
+        for point in &mut self.points {
+            point.keep_old(view);
+        }
+    }
+
+    fn linearize_as<C: Family>(
+        &mut self,
+        first: usize,
+        at: &TrialView<'_>,
+        exchange: &mut [Exchange<Q>],
+    ) -> Result<(), StateError> {
+        let points = &mut self.points[first..first + exchange.len()];
+        let mut known = None;
+        if let Some(ahead) = &mut self.ahead
+            && ahead.respond((self.scheme, at.is_start), (points, exchange), true)
+        {
+            known = Some(&**ahead);
+        }
+        for (index, (point, exchange)) in points.iter_mut().zip(exchange).enumerate() {
+            let form = known.map(|ahead| ahead.give(index, point));
+            point.linearize::<C>(at, form, exchange)?;
+        }
+        Ok(())
+    }
+
+    fn respond_as<C: Family>(
+        &mut self,
+        at: &TrialView<'_>,
+        exchange: &[Exchange<Q>],
+    ) -> Result<(), StateError> {
+        let points = &mut self.points[..exchange.len()];
+        let mut known = None;
+        if let Some(ahead) = &mut self.ahead
+            && ahead.respond((self.scheme, at.is_start), (points, exchange), false)
+        {
+            known = Some(&**ahead);
+        }
+        for (index, (point, exchange)) in points.iter_mut().zip(exchange).enumerate() {
+            if let Some(ahead) = known {
+                ahead.give(index, point);
+                point.response = ahead.responses[index];
+            }
+            point.respond::<C>(at, exchange, known.is_some())?;
+        }
+        Ok(())
+    }
+
+    fn correct_as<C: Family>(
+        &mut self,
+        changes: &[Changes<Q>],
+        contacts: &[HeatContact],
+        solution: &[[f64; 1]],
+    ) -> f64 {
+        let mut largest = 0.0;
+        for (point, changes) in self.points.iter_mut().zip(changes) {
+            let contact = point.contact_in(contacts);
+            let update = point.correct::<C>(changes, contact, solution, self.by_factors);
+            largest = Scalar::maximum(largest, update);
+        }
+        largest
+    }
+
+    fn pulls_as<C: Family>(&self, forces: &mut [Numbers<Q>]) {
+        for (point, forces) in self.points.iter().zip(forces) {
+            *forces = point.pulls::<C>();
+        }
+    }
+
+    fn close_as<C: Family>(
+        &mut self,
+        at: &TrialView<'_>,
+        ends: &[PointEnd<Q>],
+        (next, tally): (&mut State, &mut Tally),
+    ) -> Result<(), StateError> {
+        let points = &mut self.points[..ends.len()];
+        let mut known = None;
+        if const { A::THERMAL }
+            && !C::is_in_temperature(self.scheme)
+            && let Some(ahead) = &mut self.ahead
+            && ahead.close(points, ends, (at.view.state, next))
+        {
+            known = Some(&**ahead);
+        }
+        for (index, (point, end)) in points.iter_mut().zip(ends).enumerate() {
+            let known = known.map(|ahead| &ahead.caloric[index]);
+            point.close::<C>(at, end, (next, tally), known)?;
+        }
+        Ok(())
+    }
+}
+
+impl<A: Arrays, Q: MeasureSet> PointSet<Q> for ModelPoints<A, Q> {
+    fn connect(&mut self, index: usize, contact: u32, conduction: &Conduction) {
+        let point = &mut self.points[index];
+        let slot = point.slots().thermal;
+        point.contact = contact;
+        point.meets_reservoirs = slot.is_some_and(|slot| conduction.meets_reservoirs(slot));
+        point.settling = slot.map_or(0.0, |slot| conduction.settling(slot));
+    }
+
+    fn begin(
+        &mut self,
+        view: &StepView<'_>,
+        (before, by_factors): (Option<&Before<'_>>, bool),
+        measures: &[Numbers<Q>],
+    ) {
+        self.by_factors = by_factors;
+        if self.is_exact() {
+            self.begin_as::<Exact>(view, before, measures);
+        } else {
+            self.begin_as::<AnyScheme>(view, before, measures);
+        }
+    }
+
+    fn take_old_share(
+        &mut self,
+        index: usize,
+        view: &StepView<'_>,
+        speeds: &Numbers<Q>,
+    ) -> Result<Numbers<Q>, StateError> {
+        self.points[index].take_old_share(view, speeds)
+    }
+
+    fn linearize(
+        &mut self,
+        first: usize,
+        at: &TrialView<'_>,
+        exchange: &mut [Exchange<Q>],
+    ) -> Result<(), StateError> {
+        if self.is_exact() {
+            self.linearize_as::<Exact>(first, at, exchange)
+        } else {
+            self.linearize_as::<AnyScheme>(first, at, exchange)
+        }
+    }
+
+    fn respond(&mut self, at: &TrialView<'_>, exchange: &[Exchange<Q>]) -> Result<(), StateError> {
+        if self.is_exact() {
+            self.respond_as::<Exact>(at, exchange)
+        } else {
+            self.respond_as::<AnyScheme>(at, exchange)
+        }
+    }
+
+    fn correct(
+        &mut self,
+        changes: &[Changes<Q>],
+        contacts: &[HeatContact],
+        solution: &[[f64; 1]],
+    ) -> f64 {
+        if const { Self::IS_SEPARATE } && self.scheme.is_exact() {
+            self.correct_as::<Exact>(changes, contacts, solution)
+        } else {
+            self.correct_as::<AnyScheme>(changes, contacts, solution)
+        }
+    }
+
+    fn apply(&mut self, share: f64) {
+        for point in &mut self.points {
+            point.apply::<AnyScheme>(share, self.by_factors);
+        }
+    }
+
+    fn hold(&mut self) {
+        for point in &mut self.points {
+            point.hold::<AnyScheme>();
+        }
+    }
+
+    fn pulls(&self, forces: &mut [Numbers<Q>]) {
+        if self.is_exact() {
+            self.pulls_as::<Exact>(forces);
+        } else {
+            self.pulls_as::<AnyScheme>(forces);
+        }
+    }
+
+    fn magnitude_of_pull(&self, index: usize, of_nodes: [&Numbers<Q>; 3]) -> f64 {
+        self.points[index].magnitude_of_pull(of_nodes)
+    }
+
+    fn close(
+        &mut self,
+        at: &TrialView<'_>,
+        ends: &[PointEnd<Q>],
+        next: &mut State,
+        tally: &mut Tally,
+    ) -> Result<(), StateError> {
+        if self.is_exact() {
+            self.close_as::<Exact>(at, ends, (next, tally))
+        } else {
+            self.close_as::<AnyScheme>(at, ends, (next, tally))
+        }
+    }
+
+    fn reevaluate(
+        &self,
+        index: usize,
+        of_nodes: ([&Numbers<Q>; 2], &Numbers<Q>),
+        ends: [&State; 2],
+        reevaluation: &mut Reevaluation,
+    ) {
+        let point = &self.points[index];
+        let own = point.balance_between(of_nodes, ends);
+        let found = Point::<A, Q>::change_of(&point.response, &own.increments);
+        reevaluation.element(point.element, own.by_values, own.by_differences, found);
+    }
+}
+
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
+    /// Evaluates response and tangent at a trial, and eliminates the internal variables. With a known form, mixed states and viscosities
+    /// are those that the point stores.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
+    fn linearize<C: Family>(
+        &mut self,
+        at: &TrialView<'_>,
+        known: Option<&Form<A>>,
+        exchange: &mut Exchange<Q>,
+    ) -> Result<(), StateError> {
+        let view = at.view;
+        self.locate_trial::<C>(&exchange.measures, at.is_start, known.is_some())?;
+        self.extend(&exchange.increments);
+        // Used in place: copies would cost a good part of the time.
+        let mut form = known.map_or_else(|| self.form::<C>(at.is_start), |form| *form);
+        if !C::IS_EXACT {
+            exchange.heat_by_increment = Numbers::<Q>::filled(0.0);
+        }
+        if self.is_thermal() && C::is_in_temperature(self.scheme) {
+            let slopes = self.change_entropy_at_rates(view.step, &exchange.increments, &mut form);
+            exchange.heat_by_increment = measures_in::<Q>(&slopes);
+        }
+        self.accept::<C>(view.per_step, &form, known.is_some())?;
+        let elastic = self.add_drag::<C>(view.per_step, &mut form);
+        let undamped = self.add_damping::<C>(&mut form);
+        let contact = self.contact_in(at.contacts);
+        self.condense::<C>(view, at.interface, &form, paths_of(contact))?;
+        if self.has_rates::<C>() {
+            self.warm_by_rates::<C>(view, &mut exchange.heat_by_increment);
+        }
+        self.answer::<C>(&form, (at, contact.is_some()), exchange);
+        self.keep::<C>(&form);
+        self.drop_damping(undamped.as_ref());
+        self.drop_drag(&elastic);
+        Ok(())
+    }
+
+    /// Writes its forces and its temperature as functions of the measures.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
+    pub(super) fn answer<C: Family>(
+        &self,
+        form: &Form<A>,
+        (at, is_coupled): (&TrialView<'_>, bool),
+        exchange: &mut Exchange<Q>,
+    ) {
+        exchange.heat_factor = self.condensed.heat_factor;
+        if is_coupled {
+            let row = Self::TEMPERATURE;
+            exchange.heat = if C::is_damped(self.scheme) {
+                self.condensed_row::<C>(row, &self.conducting::<C>(form), true)
+            } else {
+                self.condensed_row::<C>(row, form, true)
+            };
+            let slot = self.slots().thermal.unwrap_or_default();
+            exchange.heat.value -= at.interface.values()[slot];
+        }
+        if !at.view.phase.moves() {
+            return;
+        }
+        for a in 0..A::MEASURES {
+            exchange.forces[a] = form.0[a];
+            exchange.rows[a] = self.condensed_row::<C>(a, form, is_coupled);
+        }
+        if self.has_rates::<C>() {
+            for a in 0..self.drags() {
+                exchange.drags[a] = self.drag.viscosity.0[a];
+            }
+        }
+    }
+
+    /// Evaluates the response at a trial without its tangent, unless the one stored is known to be right.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
+    fn respond<C: Family>(
+        &mut self,
+        at: &TrialView<'_>,
+        exchange: &Exchange<Q>,
+        is_known: bool,
+    ) -> Result<(), StateError> {
+        let per_step = at.view.per_step;
+        self.locate_trial::<C>(&exchange.measures, at.is_start, is_known)?;
+        self.extend(&exchange.increments);
+        let is_in_temperature = self.is_thermal() && C::is_in_temperature(self.scheme);
+        if at.is_start || is_in_temperature {
+            let mut form = self.form::<C>(at.is_start);
+            if !at.is_start {
+                let step = at.view.step;
+                self.change_entropy_at_rates(step, &exchange.increments, &mut form);
+            }
+            self.accept::<C>(per_step, &form, false)?;
+            self.response = form.0;
+            return Ok(());
+        }
+        if !is_known {
+            let (start, model) = (&self.start, &self.model);
+            self.response = start.response::<C>(self.scheme, model, &self.x, &self.corners);
+        }
+        let response = self.response;
+        self.accept_response::<C>(per_step, &response, is_known)
+    }
+
+    /// Books the step, recovers the new temperature and judges the step. The caloric quantities at the temperature of the
+    /// trial may be known.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call costs 0.8 % of a step of a spring"
+    )]
+    #[inline(always)]
+    fn close<C: Family>(
+        &mut self,
+        at: &TrialView<'_>,
+        end: &PointEnd<Q>,
+        (next, tally): (&mut State, &mut Tally),
+        known: Option<&(Caloric<f64>, f64)>,
+    ) -> Result<(), StateError> {
+        let view = at.view;
+        let outside = (paths_of(self.contact_in(at.contacts)), at.interface);
+        let received = self.book::<C>(view, outside, next, tally);
+        let near = (self.x[A::Variables::LEN - 1], known);
+        if let Some(entropy) = self.recover_temperature::<C>(&end.measures, view, near, next)? {
+            self.book_thermostat(view, [entropy, received.entropy], next);
+        }
+        if !C::is_exact(self.scheme) {
+            return Ok(());
+        }
+        let sizes = [
+            sizes_of(end.sizes[0].as_ref(), &self.start.x0),
+            sizes_of(end.sizes[1].as_ref(), &self.x),
+        ];
+        let largest = self.largest_pull::<C>(&end.slopes);
+        let is_thorough = matches!(tally.care, Care::Thorough);
+        let of_sums = is_thorough.then(|| largest * end.way);
+        let [forces, at_end] = self.amplitude::<C>(&sizes, of_sums);
+        tally.force(forces);
+        tally.exchange(view.step * largest);
+        let energy = &mut next.energies[self.element.index()];
+        energy.add_secants(at_end, self.is_thermal());
+        let terms = [energy.magnitude + forces, energy.heat_capacity];
+        self.judge::<C>(view, outside, &sizes[1], (received, terms), tally);
+        Ok(())
+    }
+}
