@@ -214,8 +214,9 @@ impl<const D: usize> Scene<D> {
         models: Vec<Tabled<A>>,
     ) -> (usize, usize) {
         let kind = identity(&models[0]);
-        let new =
-            || -> Box<dyn Loose<D>> { Box::new(LooseElements::<K, D>::new::<A>(no_explicit)) };
+        let new = || -> Box<dyn Loose<D>> {
+            Box::new(LooseElements::<K, D>::new::<A>(no_explicit, None))
+        };
         let (group, set) = self.set_of::<LooseElements<K, D>>(kind, new);
         (group, set.push(element, models))
     }

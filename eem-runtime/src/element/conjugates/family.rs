@@ -132,7 +132,7 @@ impl OneSet {
 /// The variables of an element are `x = (π…, γ…, τ)` with a temperature τ > 0 that depends on the scheme: the new one for
 /// schemes that evaluate the ends of the step, the mean one for those that evaluate its middle. Newton's method
 /// corrects τ, or the entropy change Δs if [`PointRule::temperature`] finds τ from it.
-pub(crate) trait Family: 'static {
+pub(crate) trait Family: Send + Sync + 'static {
     /// Whether the scheme is known to be [`OneSet::Exact`].
     const IS_EXACT: bool;
 

@@ -2,7 +2,6 @@
 //! one by one.
 
 use super::point::{Point, Viscosities, variables};
-use super::points::{Exchange, PointEnd};
 use crate::element::conjugates::{Form, OneSet, find_corners_together};
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::state::State;
@@ -12,6 +11,8 @@ use eem_material::free_energy::{Array, Caloric, ExactForm, MOST_TOGETHER, Steps}
 
 /// Room for the values of points that are evaluated in one call.
 pub(super) struct Ahead<A: Arrays> {
+    /// Whether the values are those of the present trial.
+    pub(super) is_known: bool,
     pub(super) x: [A::Variables; MOST_TOGETHER],
     pub(super) corners: [A::Corners; MOST_TOGETHER],
     pub(super) forms: [Form<A>; MOST_TOGETHER],
@@ -60,6 +61,7 @@ impl<A: Arrays> Ahead<A> {
             magnitude: 0.0,
         };
         Some(Box::new(Self {
+            is_known: false,
             x: [x; MOST_TOGETHER],
             corners: [A::Corners::filled(0.0); MOST_TOGETHER],
             forms: [(response, A::Tangent::filled(x)); MOST_TOGETHER],
@@ -96,16 +98,16 @@ impl<A: Arrays> Ahead<A> {
     pub(super) fn respond<Q: MeasureSet>(
         &mut self,
         (scheme, is_start): (OneSet, bool),
-        (points, exchange): (&[Point<A, Q>], &[Exchange<Q>]),
+        (points, measures): (&[Point<A, Q>], &[Numbers<Q>]),
         has_tangent: bool,
     ) -> bool {
         let form = form_together(scheme, points);
         let Some((form, together)) = form.filter(|_| !is_start) else {
             return false;
         };
-        for (x, (point, exchange)) in self.x.iter_mut().zip(points.iter().zip(exchange)) {
+        for (x, (point, measures)) in self.x.iter_mut().zip(points.iter().zip(measures)) {
             *x = point.x;
-            for (a, &measure) in exchange.measures.as_ref().iter().enumerate() {
+            for (a, &measure) in measures.as_ref().iter().enumerate() {
                 x[a] = measure;
             }
         }
@@ -171,15 +173,15 @@ impl<A: Arrays> Ahead<A> {
     pub(super) fn close<Q: MeasureSet>(
         &mut self,
         points: &[Point<A, Q>],
-        ends: &[PointEnd<Q>],
+        measures: &[Numbers<Q>],
         (old, next): (&State, &mut State),
     ) -> bool {
         let thermal = together(points).filter(|_| points[0].is_thermal());
         let Some(together) = thermal else {
             return false;
         };
-        for (x, (point, end)) in self.x.iter_mut().zip(points.iter().zip(ends)) {
-            *x = point.closed_variables(&end.measures, (old, &mut *next));
+        for (x, (point, measures)) in self.x.iter_mut().zip(points.iter().zip(measures)) {
+            *x = point.closed_variables(measures, (old, &mut *next));
         }
         let count = points.len();
         together.caloric_at(&self.x[..count], &mut self.caloric[..count]);

@@ -9,7 +9,7 @@ use super::pose::Pose;
 use crate::element::conjugates::Family;
 use crate::element::error::StateError;
 use crate::element::group::view::{Before, Old, StepView};
-use crate::element::kinematics::{Kinematics, MeasureSet, Measures, Numbers};
+use crate::element::kinematics::{Kinematics, MeasureSet, Numbers};
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
@@ -29,31 +29,31 @@ pub(super) fn shorten<K: Kinematics<D>, const D: usize>(
     }
 }
 
-impl<K: Kinematics<D>, const D: usize> Block<K, dyn PointSet<K::Measures>, D> {
+impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<K, P, D> {
     /// Takes the old state.
     #[inline]
     pub(super) fn begin<C: Family>(
         &mut self,
         of: &OfGroup,
-        (view, by_factors): (&StepView<'_>, bool),
+        view: &StepView<'_>,
         old: &mut Old<'_, D>,
-        measures: &mut Vec<Measures<K, D>>,
     ) -> Result<(), StateError> {
-        measures.clear();
+        let (before, mut index) = ((old.before.as_ref(), old.by_factors), 0);
         for member in &mut self.members {
             member.r0 = member.arms_in(view.state);
             for point in member.points.as_mut() {
                 let own = point.kinematics.measure(&member.r0);
                 point.measures0 = own;
-                measures.push(own);
+                self.points.begin(index, view, before, &own);
+                index += 1;
                 let length = point.kinematics.length(&own);
                 shorten::<K, D>(&member.site.nodes, length, old.lengths);
             }
         }
-        (self.points).begin(view, (old.before.as_ref(), by_factors), measures);
         if C::implicit(of.scheme) < 1.0 {
             self.take_old_share(of, view, old.force)?;
         }
+        self.points.keep(view);
         Ok(())
     }
 

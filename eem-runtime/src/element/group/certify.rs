@@ -2,13 +2,12 @@
 
 use super::member::Member;
 use super::point::Point;
-use super::points::PointSet;
 use super::site::HeatPath;
 use crate::element::balances::Received;
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::{Any, Family};
 use crate::element::group::view::StepView;
-use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Numbers};
+use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Measures, Numbers};
 use crate::element::state::Energy;
 use crate::element::tally::{Care, Tally};
 use eem_material::arrays::Arrays;
@@ -16,8 +15,8 @@ use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 
 impl<K: Kinematics<D>, const D: usize> Member<K, D> {
-    /// Adds the magnitude of the terms of `h F` to that of the nodes, N s, given the new arms, their change, and the points with the index of
-    /// its first one:
+    /// Adds the magnitude of the terms of `h F` to that of the nodes, N s, given the new arms, their change, and what finds the magnitude of a
+    /// point from sizes, slopes and sizes of slopes of its measures:
     ///
     /// ```text
     /// h Σ_π (|∂²π/∂r²| |r| |f*| + |∂π/∂r| Σ |∂f*/∂x_j| |x_j|) (1 + |Δr|/ℓ)
@@ -27,7 +26,7 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
         &self,
         h: f64,
         [r1, change]: [&Arms<K, D>; 2],
-        (points, first): (&dyn PointSet<K::Measures>, usize),
+        magnitude_of: &dyn Fn(usize, [&Measures<K, D>; 3]) -> f64,
         magnitudes: &mut [f64],
     ) {
         let mut motion = 0.0;
@@ -36,12 +35,12 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
                 motion = Scalar::maximum(motion, component.abs());
             }
         }
-        for (index, point) in (first..).zip(self.points.as_ref()) {
+        for (index, point) in self.points.as_ref().iter().enumerate() {
             let (kinematics, old, new) = (&point.kinematics, &point.measures0, &point.measures);
             let sizes = kinematics.sizes(r1, new);
             let slopes = kinematics.slopes(r1, new);
             let slope_sizes = kinematics.slope_sizes(r1, new);
-            let sum = points.magnitude_of_pull(index, [&sizes, &slopes, &slope_sizes]);
+            let sum = magnitude_of(index, [&sizes, &slopes, &slope_sizes]);
             let length = |measures| kinematics.length(measures);
             let magnitude = h * (sum * (1.0 + motion / Scalar::minimum(length(old), length(new))));
             for &node in self.site.nodes.as_ref() {

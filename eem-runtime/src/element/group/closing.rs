@@ -13,7 +13,7 @@ use super::evaluate::{At, for_points};
 use super::member::{Block, Member};
 use super::placed::{OfGroup, PlacedPoint};
 use super::point::Point;
-use super::points::{PointEnd, PointSet};
+use super::points::{PointEnd, PointSet, TrialView};
 use super::pose::Pose;
 use super::share::Contacts;
 use super::site::HeatPath;
@@ -28,47 +28,47 @@ use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Measures, W
 use crate::element::state::State;
 use crate::element::tally::{Care, Tally};
 use eem_material::arrays::Arrays;
-use eem_material::free_energy::Array;
+use eem_material::free_energy::{Array, MOST_TOGETHER};
 
-impl<K: Kinematics<D>, const D: usize> Block<K, dyn PointSet<K::Measures>, D> {
+impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<K, P, D> {
     /// Adds the impulses of the last responses, and the magnitudes of their terms if they are asked for.
     #[inline]
-    pub(super) fn add_impulse(
+    pub(super) fn add_impulse<C: Family>(
         &self,
         of: &OfGroup,
         (view, trial): At<'_, D>,
         along: Along,
-        all_forces: &mut [Measures<K, D>],
         (impulses, magnitudes): (&mut Impulses<'_, D>, &mut [f64]),
     ) {
         let at = match along {
             Along::Secant => None,
-            Along::Scheme => Some(of.scheme.placement()),
+            Along::Scheme => Some(C::placement(of.scheme)),
             Along::Gradient => Some(Placement::End),
             Along::Stage(_) => return,
         };
-        self.points.pulls(all_forces);
         for (first, member) in self.elements() {
-            let forces = &all_forces[first..first + Member::<K, D>::POINTS];
             let nodes = &member.site.nodes;
             let change = change_in::<K, D>(nodes, trial);
             let mut r1 = change;
             add_scaled::<K, D>(&mut r1, 1.0, &member.r0);
-            if !magnitudes.is_empty() {
-                let points = (&*self.points, first);
-                member.add_magnitude(view.step, [&r1, &change], points, magnitudes);
-            }
             let ends = [&member.r0, &r1];
+            let force_of = |index: usize| self.points.pull(first + index);
+            if !magnitudes.is_empty() {
+                let magnitude_of =
+                    |index: usize, of: [&_; 3]| self.points.magnitude_of_pull(first + index, of);
+                member.add_magnitude(view.step, [&r1, &change], &magnitude_of, magnitudes);
+            }
             let (h, force) = if let Some(at) = at {
-                let share = view.step * of.scheme.implicit();
-                (share, member.force(at, ends, forces))
+                let share = view.step * C::implicit(of.scheme);
+                (share, member.force(at, ends, &force_of))
             } else {
                 let mut mean = change;
                 let old = member.r0.as_ref().as_flattened();
                 for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
                     *mean = old + 0.5 * *mean;
                 }
-                (view.step, member.pull(of, ends, &mean, forces))
+                let at = C::placement(of.scheme);
+                (view.step, member.pull(at, ends, &mean, force_of))
             };
             for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
                 for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
@@ -80,26 +80,33 @@ impl<K: Kinematics<D>, const D: usize> Block<K, dyn PointSet<K::Measures>, D> {
 
     /// Books the step, finds the new temperatures and energies, and judges the step.
     #[inline]
-    pub(super) fn close(
+    pub(super) fn close<C: Family>(
         &mut self,
         of: &OfGroup,
         at: At<'_, D>,
         contacts: &Contacts<K, D>,
-        ends: &mut [PointEnd<K::Measures>],
         (next, tally): (&mut State, &mut Tally),
     ) -> Result<(), StateError> {
-        let (is_exact, mut count) = (of.scheme.is_exact(), 0);
-        let mut refusal = Ok(());
-        'all: for member in &self.members {
+        let for_points = for_points(at, contacts);
+        if !C::IS_EXACT && self.points.is_together() {
+            self.close_together(&for_points, next);
+        }
+        let is_exact = C::is_exact(of.scheme);
+        let is_thorough = is_exact && matches!(tally.care, Care::Thorough);
+        let mut index = 0;
+        for member in &self.members {
             let r1 = member.arms_in(next);
-            let is_thorough = is_exact && matches!(tally.care, Care::Thorough);
             for point in member.points.as_ref() {
-                let (kinematics, end) = (&point.kinematics, &mut ends[count]);
-                end.measures = kinematics.measure(&r1);
+                let kinematics = &point.kinematics;
+                let mut end = PointEnd {
+                    measures: kinematics.measure(&r1),
+                    sizes: [point.measures; 2],
+                    slopes: point.measures,
+                    way: 0.0,
+                };
                 if !kinematics.is_admissible(&r1, &end.measures) {
-                    let (element, _) = self.points.place(count);
-                    refusal = Err(kinematics.refusal(element, &r1));
-                    break 'all;
+                    let (element, _) = self.points.place(index);
+                    return Err(kinematics.refusal(element, &r1));
                 }
                 if is_exact {
                     end.sizes = [
@@ -111,12 +118,26 @@ impl<K: Kinematics<D>, const D: usize> Block<K, dyn PointSet<K::Measures>, D> {
                 if is_thorough {
                     end.way = way_of_nodes(member.site.nodes.as_ref(), at.1);
                 }
+                let books = (&mut *next, &mut *tally);
+                self.points.close(index, &for_points, &end, books)?;
+                index += 1;
+            }
+        }
+        Ok(())
+    }
+
+    #[inline(never)]
+    fn close_together(&mut self, at: &TrialView<'_>, next: &mut State) {
+        let mut measures = [Measures::<K, D>::filled(0.0); MOST_TOGETHER];
+        let mut count = 0;
+        for member in &self.members {
+            let r1 = member.arms_in(next);
+            for point in member.points.as_ref() {
+                measures[count] = point.kinematics.measure(&r1);
                 count += 1;
             }
         }
-        let at = for_points(at, contacts);
-        self.points.close(&at, &ends[..count], next, tally)?;
-        refusal
+        (self.points).close_together(at, &measures[..count], next);
     }
 }
 
@@ -126,11 +147,11 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
         &self,
         at: Placement,
         ends: [&Arms<K, D>; 2],
-        forces: &[Measures<K, D>],
+        force_of: &dyn Fn(usize) -> Measures<K, D>,
     ) -> K::PerNode<[f64; D]> {
         let mut sum = None;
-        for (point, forces) in self.points.as_ref().iter().zip(forces) {
-            sum_nodes::<K, D>(&mut sum, point.force(at, ends, forces));
+        for (index, point) in self.points.as_ref().iter().enumerate() {
+            sum_nodes::<K, D>(&mut sum, point.force(at, ends, &force_of(index)));
         }
         sum.unwrap_or_else(|| K::PerNode::filled([0.0; D]))
     }
@@ -139,14 +160,14 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
     #[inline]
     fn pull(
         &self,
-        of: &OfGroup,
+        at: Placement,
         ends: [&Arms<K, D>; 2],
         mean: &Arms<K, D>,
-        forces: &[Measures<K, D>],
+        force_of: impl Fn(usize) -> Measures<K, D>,
     ) -> K::PerNode<[f64; D]> {
         let mut sum: Option<Weights<K, D>> = None;
-        for (point, forces) in self.points.as_ref().iter().zip(forces) {
-            let own = point.secant(of.scheme.placement(), ends, forces);
+        for (index, point) in self.points.as_ref().iter().enumerate() {
+            let own = point.secant(at, ends, &force_of(index));
             let Some(sum) = &mut sum else {
                 sum = Some(own);
                 continue;

@@ -4,37 +4,41 @@ use super::arms::along;
 use super::member::Block;
 use super::placed::PlacedPoint;
 use super::point::Point;
-use super::points::{Changes, PointSet};
+use super::points::PointSet;
 use super::share::{Contacts, run};
 use super::site::{HeatContact, Site};
 use crate::element::conjugates::Family;
-use crate::element::kinematics::{Arms, Kinematics, MeasureSet};
+use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Numbers};
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 
-impl<K: Kinematics<D>, const D: usize> Block<K, dyn PointSet<K::Measures>, D> {
+impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<K, P, D> {
     /// Applies the corrections of the internal variables for a global solution; returns the largest in their units.
     #[inline]
-    pub(super) fn correct(
+    pub(super) fn correct<C: Family>(
         &mut self,
         contacts: &Contacts<K, D>,
         solution: &[[f64; 1]],
-        changes: &mut [Changes<K::Measures>],
     ) -> f64 {
-        let mut count = 0;
+        let (mut largest, mut index) = (0.0, 0);
         for member in &self.members {
             let motion = member.site.motion_in(solution);
             for point in member.points.as_ref() {
-                let own = &mut changes[count];
-                own.measures = PlacedPoint::<K, D>::rates_along(&point.sensitivity, &motion);
-                if let Some(by_increment) = &point.by_increment {
-                    own.heat = along::<K, D>(by_increment, &motion);
+                let changes = PlacedPoint::<K, D>::rates_along(&point.sensitivity, &motion);
+                let mut heat = 0.0;
+                if !C::IS_EXACT
+                    && let Some(by_increment) = &point.by_increment
+                {
+                    heat = along::<K, D>(by_increment, &motion);
                 }
-                count += 1;
+                let changes = (&changes, heat);
+                let update = (self.points).correct(index, changes, &contacts.heat, solution);
+                largest = Scalar::maximum(largest, update);
+                index += 1;
             }
         }
-        (self.points).correct(&changes[..count], &contacts.heat, solution)
+        largest
     }
 }
 
@@ -43,20 +47,19 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     #[inline]
     pub(super) fn correct<C: Family>(
         &mut self,
-        changes: &Changes<Q>,
+        (changes, by_motion): (&Numbers<Q>, f64),
         contact: Option<&HeatContact>,
         solution: &[[f64; 1]],
-        by_factors: bool,
     ) -> f64 {
         let (mut heat, is_coupled) = (0.0, contact.is_some());
         if let Some(contact) = contact {
             heat = self.condensed.heat_factor * contact.heat(solution);
         }
         if !C::IS_EXACT {
-            heat += changes.heat;
+            heat += by_motion;
         }
         for a in 0..A::MEASURES {
-            self.correction[a] = changes.measures[a];
+            self.correction[a] = changes[a];
         }
         for u in 0..Self::UNKNOWNS {
             if !self.own_unknowns().has::<A>(u) {
@@ -82,7 +85,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
             }
         }
         let update = self.scaled_update();
-        self.apply::<C>(1.0, by_factors);
+        self.apply::<C>(1.0);
         update
     }
 

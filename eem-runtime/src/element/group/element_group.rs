@@ -1,13 +1,16 @@
 //! The elements of one model, with one set of forces in a step.
 
+use core::marker::PhantomData;
+
 use super::elements::Blocks;
 use super::interface::{Elements, Group, Loose};
-use super::loose::{LooseElements, MakeExplicit};
+use super::loose::LooseElements;
 use super::member::{Member, places};
+use super::model_points::ModelPoints;
 use super::placed::OfGroup;
 #[cfg(feature = "gradients")]
 use super::point_step::{Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
-use super::points::{Changes, Exchange, Models, PointEnd, PointSet};
+use super::points::PointSet;
 use super::share::{Contacts, Share};
 use super::site::{ContactSite, Site};
 use super::view::{Along, Old, Placed, Sites, StepView, Trial};
@@ -18,134 +21,107 @@ use crate::element::conjugates::{Any, Exact, Family, OneSet};
 use crate::element::error::StateError;
 use crate::element::group::view::ElementGeneric;
 use crate::element::impulse::Impulses;
-use crate::element::kinematics::{Kinematics, Measures, QuadraticStrain};
+use crate::element::kinematics::{Kinematics, Length, QuadraticStrain, Stretch};
 use crate::element::state::State;
 use crate::element::tally::{Reevaluation, Tally};
-use eem_material::free_energy::{Array, MOST_TOGETHER};
+use eem_material::arrays::Arrays;
+use eem_material::free_energy::MOST_TOGETHER;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Scalar;
 
-/// Elements of one model with the kinematics `K`.
-pub(crate) struct ElementGroup<K: QuadraticStrain<D>, const D: usize> {
+/// Elements of one model with the kinematics `K`, with points `P` and schemes of the family `C`.
+///
+/// Mostly the points are behind a table, and of any family. For exact schemes and the springs that are met most often they are
+/// not, so that a step is compiled as a whole: it takes 15 % fewer instructions.
+pub(crate) struct ElementGroup<K, P, C, const D: usize>
+where
+    K: QuadraticStrain<D>,
+    P: ?Sized,
+{
     pub(super) of: OfGroup,
-    pub(super) elements: Blocks<K, dyn PointSet<K::Measures>, D>,
+    pub(super) elements: Blocks<K, P, D>,
     pub(super) contacts: Contacts<K, D>,
-    /// The list of models, empty while they are in the blocks.
-    models: Box<dyn Models<K::Strain>>,
-    make_explicit: MakeExplicit<D>,
-    /// See [`Old::by_factors`].
-    by_factors: bool,
-    /// Workspace for a block.
-    pub(super) room: Room<K, D>,
+    /// Kinematics and models are in the blocks.
+    loose: LooseElements<K, D>,
     /// Workspace for elements with many points, a round of elements at a time.
     pub(super) shares: Vec<Share<K, D>>,
+    family: PhantomData<C>,
 }
 
-/// Workspace for the points of a block.
-pub(super) struct Room<K: Kinematics<D>, const D: usize> {
-    pub(super) exchange: Vec<Exchange<K::Measures>>,
-    pub(super) measures: Vec<Measures<K, D>>,
-    pub(super) changes: Vec<Changes<K::Measures>>,
-    pub(super) ends: Vec<PointEnd<K::Measures>>,
-}
+/// Elements whose points are behind a table.
+pub(crate) type AnyElements<K, const D: usize> =
+    ElementGroup<K, dyn PointSet<<K as Kinematics<D>>::Measures>, Any, D>;
 
-/// How many elements are in a block: of springs as many as are evaluated in one call, of others one.
-fn elements_per_block<K: Kinematics<D>, const D: usize>() -> usize {
-    if Member::<K, D>::POINTS == 1 {
-        MOST_TOGETHER
-    } else {
-        1
+/// Springs in exact schemes whose points are not.
+pub(crate) type ExactSprings<A, const D: usize> =
+    ElementGroup<Stretch<D>, ModelPoints<A, Length, Exact>, Exact, D>;
+
+impl<K: QuadraticStrain<D>, const D: usize> AnyElements<K, D> {
+    /// Springs are in blocks of as many as are evaluated in one call, others one by one.
+    pub(crate) fn new(scheme: OneSet, mut loose: LooseElements<K, D>, placed: Placed<'_>) -> Self {
+        let per_block = if Member::<K, D>::POINTS == 1 {
+            MOST_TOGETHER
+        } else {
+            1
+        };
+        let places = places::<K, D>(&loose.elements, placed);
+        let per_set = per_block * Member::<K, D>::POINTS;
+        let of = OfGroup::new(scheme, &loose.models.shape());
+        let sets = loose.models.points(scheme, &places, per_set);
+        Self::with(of, loose, (sets, per_block), placed)
     }
 }
 
-impl<K: QuadraticStrain<D>, const D: usize> ElementGroup<K, D> {
-    pub(crate) fn new(scheme: OneSet, mut loose: LooseElements<K, D>, placed: Placed<'_>) -> Self {
-        let shape = loose.models.shape();
-        let of = OfGroup {
-            scheme,
-            has_drag: shape.drag,
-            is_thermal: shape.thermal,
-            has_unknowns: shape.thermal || shape.dashpots > 0,
-        };
-        let per_block = elements_per_block::<K, D>();
-        let per_set = per_block * Member::<K, D>::POINTS;
-        let all = places::<K, D>(&loose.elements, placed);
-        let sets = loose.models.points(scheme, &all, per_set);
+impl<A: Arrays, const D: usize> ExactSprings<A, D> {
+    /// In one block.
+    pub(crate) fn new(
+        scheme: OneSet,
+        mut loose: LooseElements<Stretch<D>, D>,
+        placed: Placed<'_>,
+    ) -> Self {
+        let places = places::<Stretch<D>, D>(&loose.elements, placed);
+        let of = OfGroup::new(scheme, &loose.models.shape());
+        let mut models = loose.take_models::<A>().into_iter();
+        let points = ModelPoints::new(scheme, &mut models, &places);
+        let sets = (vec![Box::new(points)], places.len().max(1));
+        Self::with(of, loose, sets, placed)
+    }
+}
+
+impl<K, P, C, const D: usize> ElementGroup<K, P, C, D>
+where
+    K: QuadraticStrain<D>,
+    P: ?Sized + PointSet<K::Measures>,
+    C: Family,
+{
+    /// Elements whose models have been given to these sets of points.
+    fn with(
+        of: OfGroup,
+        loose: LooseElements<K, D>,
+        (sets, per_block): (Vec<Box<P>>, usize),
+        placed: Placed<'_>,
+    ) -> Self {
         let mut members = Vec::with_capacity(loose.elements.len());
         for element in &loose.elements {
-            members.push(Member::new(scheme, element, placed));
+            members.push(Member::new(of.scheme, element, placed));
         }
-        let room = per_set.min(all.len());
-        let none = Measures::<K, D>::filled(0.0);
-        let end = PointEnd {
-            measures: none,
-            sizes: [none; 2],
-            slopes: none,
-            way: 0.0,
-        };
-        let changes = Changes {
-            measures: none,
-            heat: 0.0,
-        };
         Self {
             of,
             elements: Blocks::new(members, sets, per_block),
             contacts: Contacts::none(),
-            models: loose.models,
-            make_explicit: loose.make_explicit,
-            by_factors: false,
-            room: Room {
-                exchange: vec![Exchange::none(); room],
-                measures: vec![none; room],
-                changes: vec![changes; room],
-                ends: vec![end; room],
-            },
+            loose: loose.without_elements(),
             shares: Vec::new(),
-        }
-    }
-
-    /// The elements without the scheme.
-    fn into_loose_elements(self) -> LooseElements<K, D> {
-        let mut models = self.models;
-        let mut take_back = |own| models.take_back(own);
-        let elements = self.elements.into_loose(&mut take_back);
-        LooseElements {
-            elements,
-            models,
-            make_explicit: self.make_explicit,
+            family: PhantomData,
         }
     }
 }
 
-/// The functions of a step, for a family of schemes.
-impl<K: QuadraticStrain<D>, const D: usize> ElementGroup<K, D> {
-    fn evaluate_as<C: Family>(
-        &mut self,
-        view: &StepView<'_>,
-        trial: &Trial<D>,
-        system: Option<&mut LinearSystem<1>>,
-    ) -> Result<(), StateError> {
-        match system {
-            Some(system) => self.linearize::<C>((view, trial), system),
-            None => self.respond::<C>((view, trial)),
-        }
-    }
-
-    fn begin_as<C: Family>(
-        &mut self,
-        view: &StepView<'_>,
-        old: &mut Old<'_, D>,
-    ) -> Result<(), StateError> {
-        self.by_factors = old.by_factors;
-        for block in &mut self.elements.blocks {
-            let how = (view, self.by_factors);
-            block.begin::<C>(&self.of, how, old, &mut self.room.measures)?;
-        }
-        Ok(())
-    }
-}
-
-impl<K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup<K, D> {
+impl<K, P, C, const D: usize> Group<D> for ElementGroup<K, P, C, D>
+where
+    K: QuadraticStrain<D>,
+    P: ?Sized + PointSet<K::Measures>,
+    C: Family,
+{
     fn elements(&self) -> &dyn Elements<D> {
         &self.elements
     }
@@ -155,7 +131,10 @@ impl<K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup<K, D> {
     }
 
     fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>> {
-        Box::new(self.into_loose_elements())
+        let mut loose = self.loose;
+        let mut take_back = |own| loose.models.take_back(own);
+        loose.elements = self.elements.into_loose(&mut take_back);
+        Box::new(loose)
     }
 
     fn connect(&mut self, sites: &Sites<'_, D>) {
@@ -181,10 +160,10 @@ impl<K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup<K, D> {
     }
 
     fn begin(&mut self, view: &StepView<'_>, old: &mut Old<'_, D>) -> Result<(), StateError> {
-        match self.of.scheme {
-            OneSet::Exact(_) => self.begin_as::<Exact>(view, old),
-            _ => self.begin_as::<Any>(view, old),
+        for block in &mut self.elements.blocks {
+            block.begin::<C>(&self.of, view, old)?;
         }
+        Ok(())
     }
 
     fn evaluate(
@@ -193,9 +172,9 @@ impl<K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup<K, D> {
         trial: &Trial<D>,
         system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
-        match self.of.scheme {
-            OneSet::Exact(_) => self.evaluate_as::<Exact>(view, trial, system),
-            _ => self.evaluate_as::<Any>(view, trial, system),
+        match system {
+            Some(system) => self.linearize((view, trial), system),
+            None => self.respond((view, trial)),
         }
     }
 
@@ -205,7 +184,7 @@ impl<K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup<K, D> {
             return largest;
         }
         for block in &mut self.elements.blocks {
-            let update = block.correct(&self.contacts, solution, &mut self.room.changes);
+            let update = block.correct::<C>(&self.contacts, solution);
             largest = Scalar::maximum(largest, update);
         }
         largest
@@ -232,9 +211,8 @@ impl<K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup<K, D> {
         magnitudes: &mut [f64],
     ) {
         for block in &self.elements.blocks {
-            let forces = &mut self.room.measures;
-            let at = (view, trial);
-            block.add_impulse(&self.of, at, along, forces, (impulses, magnitudes));
+            let target = (&mut *impulses, &mut *magnitudes);
+            block.add_impulse::<C>(&self.of, (view, trial), along, target);
         }
     }
 
@@ -246,8 +224,8 @@ impl<K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup<K, D> {
         tally: &mut Tally,
     ) -> Result<(), StateError> {
         for block in &mut self.elements.blocks {
-            let (at, ends) = ((view, trial), &mut self.room.ends);
-            block.close(&self.of, at, &self.contacts, ends, (next, tally))?;
+            let books = (&mut *next, &mut *tally);
+            block.close::<C>(&self.of, (view, trial), &self.contacts, books)?;
         }
         Ok(())
     }

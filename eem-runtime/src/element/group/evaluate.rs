@@ -1,7 +1,5 @@
 //! Evaluation of a trial state: measures, responses, condensed local systems, contributions.
 
-use core::slice;
-
 use super::member::{Block, Member};
 use super::placed::{OfGroup, TrialArms};
 use super::points::{Exchange, PointSet, TrialView};
@@ -12,7 +10,8 @@ use crate::element::conjugates::Family;
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Kinematics, QuadraticStrain};
+use crate::element::kinematics::{Kinematics, Measures, QuadraticStrain};
+use eem_material::free_energy::{Array, MOST_TOGETHER};
 
 /// The trial of a step, as elements see it.
 pub(super) type At<'a, const D: usize> = (&'a StepView<'a>, &'a Trial<D>);
@@ -30,9 +29,14 @@ pub(super) fn for_points<'a, K: Kinematics<D>, const D: usize>(
     }
 }
 
-impl<K: QuadraticStrain<D>, const D: usize> ElementGroup<K, D> {
+impl<K, P, C, const D: usize> ElementGroup<K, P, C, D>
+where
+    K: QuadraticStrain<D>,
+    P: ?Sized + PointSet<K::Measures>,
+    C: Family,
+{
     /// Evaluates responses and tangents, and adds their contributions to the system of the next iteration.
-    pub(super) fn linearize<C: Family>(
+    pub(super) fn linearize(
         &mut self,
         at: At<'_, D>,
         system: &mut LinearSystem<1>,
@@ -41,21 +45,23 @@ impl<K: QuadraticStrain<D>, const D: usize> ElementGroup<K, D> {
         let (values, right) = system.parts();
         if const { Member::<K, D>::POINTS == 1 } {
             for block in &mut self.elements.blocks {
-                let exchange = &mut self.room.exchange;
-                block.linearize::<C>(of, at, contacts, exchange)?;
-                for (member, exchange) in block.members.iter_mut().zip(exchange) {
+                if !C::IS_EXACT && block.points.is_together() {
+                    block.evaluate_together::<C>(of, at, contacts, true);
+                }
+                for index in 0..block.members.len() {
                     let mut share = Share::none();
-                    let arms = member.trial_arms::<C>(of, at);
-                    member.take::<C>(0, of, at, contacts, (&arms, exchange), &mut share);
-                    member.add_share(&share, contacts, (&mut *values, &mut *right));
+                    block.linearize::<C>(index, of, at, contacts, &mut share)?;
+                    let target = (&mut *values, &mut *right);
+                    block.members[index].add_share(&share, contacts, target);
                 }
             }
             return Ok(());
         }
-        let linearize = |block: &mut OneBlock<K, D>, share: &mut Share<K, D>| {
-            block.linearize_one_by_one::<C>(of, at, contacts, share)
+        let linearize = |block: &mut Block<K, P, D>, share: &mut Share<K, D>| {
+            (0..block.members.len())
+                .try_for_each(|index| block.linearize::<C>(index, of, at, contacts, share))
         };
-        let mut add = |block: &OneBlock<K, D>, share: &Share<K, D>| {
+        let mut add = |block: &Block<K, P, D>, share: &Share<K, D>| {
             for member in &block.members {
                 member.add_share(share, contacts, (&mut *values, &mut *right));
             }
@@ -69,56 +75,76 @@ impl<K: QuadraticStrain<D>, const D: usize> ElementGroup<K, D> {
     }
 
     /// Evaluates responses without tangents.
-    pub(super) fn respond<C: Family>(&mut self, at: At<'_, D>) -> Result<(), StateError> {
+    pub(super) fn respond(&mut self, at: At<'_, D>) -> Result<(), StateError> {
         for block in &mut self.elements.blocks {
-            block.respond::<C>(&self.of, at, &self.contacts, &mut self.room.exchange)?;
+            if !C::IS_EXACT && block.points.is_together() {
+                block.evaluate_together::<C>(&self.of, at, &self.contacts, false);
+            }
+            block.respond::<C>(&self.of, at, &self.contacts)?;
         }
         Ok(())
     }
 }
 
-type OneBlock<K, const D: usize> = Block<K, dyn PointSet<<K as Kinematics<D>>::Measures>, D>;
-
-impl<K: Kinematics<D>, const D: usize> Block<K, dyn PointSet<K::Measures>, D> {
-    /// Finds the measures of all points at a trial; an error at the first that is inadmissible, whose index is the number returned.
-    #[expect(
-        clippy::inline_always,
-        reason = "a call costs 1 % of a step of a spring"
-    )]
-    #[inline(always)]
-    fn place<C: Family>(
-        &mut self,
-        of: &OfGroup,
-        at: At<'_, D>,
-        exchange: &mut [Exchange<K::Measures>],
-    ) -> (usize, Result<(), StateError>) {
-        let mut index = 0;
-        for member in &mut self.members {
-            let arms = member.trial_arms::<C>(of, at);
-            for point in member.points.as_mut() {
-                if !point.place::<C>(of, &arms, &mut exchange[index]) {
-                    let (element, _) = self.points.place(index);
-                    let refusal = point.kinematics.refusal(element, &arms.placed);
-                    return (index, Err(refusal));
-                }
-                index += 1;
-            }
-        }
-        (index, Ok(()))
-    }
-
-    #[inline]
-    fn linearize<C: Family>(
+impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<K, P, D> {
+    /// Evaluates all its points in one call, before they are asked one by one. Those of inadmissible elements have the measures of the
+    /// old state: they are not asked.
+    #[inline(never)]
+    fn evaluate_together<C: Family>(
         &mut self,
         of: &OfGroup,
         at: At<'_, D>,
         contacts: &Contacts<K, D>,
-        exchange: &mut [Exchange<K::Measures>],
-    ) -> Result<(), StateError> {
-        let (count, placed) = self.place::<C>(of, at, exchange);
+        has_tangent: bool,
+    ) {
+        let mut measures = [Measures::<K, D>::filled(0.0); MOST_TOGETHER];
+        let mut count = 0;
+        for member in &mut self.members {
+            let arms = member.trial_arms::<C>(of, at);
+            for point in member.points.as_mut() {
+                let is_placed = point.measure::<C>(of, &arms);
+                measures[count] = if is_placed {
+                    point.measures
+                } else {
+                    point.measures0
+                };
+                count += 1;
+            }
+        }
         let at = for_points(at, contacts);
-        (self.points).linearize(0, &at, &mut exchange[..count])?;
-        placed
+        (self.points).evaluate_together(&at, &measures[..count], has_tangent);
+    }
+
+    /// Evaluates the points of an element, and its contribution to the system of an iteration.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call of its own costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
+    fn linearize<C: Family>(
+        &mut self,
+        index: usize,
+        of: &OfGroup,
+        at: At<'_, D>,
+        contacts: &Contacts<K, D>,
+        share: &mut Share<K, D>,
+    ) -> Result<(), StateError> {
+        let for_points = for_points(at, contacts);
+        let member = &mut self.members[index];
+        let arms = member.trial_arms::<C>(of, at);
+        let mut exchange = Exchange::none();
+        share.momentum = None;
+        for point in 0..Member::<K, D>::POINTS {
+            let place = index * Member::<K, D>::POINTS + point;
+            let own = &mut member.points.as_mut()[point];
+            if !own.place::<C>(of, &arms, &mut exchange) {
+                let (element, _) = self.points.place(place);
+                return Err(own.kinematics.refusal(element, &arms.placed));
+            }
+            (self.points).linearize(place, &for_points, &mut exchange)?;
+            member.take::<C>(point, of, at, contacts, (&arms, &exchange), share);
+        }
+        Ok(())
     }
 
     #[inline]
@@ -127,35 +153,19 @@ impl<K: Kinematics<D>, const D: usize> Block<K, dyn PointSet<K::Measures>, D> {
         of: &OfGroup,
         at: At<'_, D>,
         contacts: &Contacts<K, D>,
-        exchange: &mut [Exchange<K::Measures>],
-    ) -> Result<(), StateError> {
-        let (count, placed) = self.place::<C>(of, at, exchange);
-        (self.points).respond(&for_points(at, contacts), &exchange[..count])?;
-        placed
-    }
-
-    /// Evaluates elements with many points, an element after the other, point by point.
-    fn linearize_one_by_one<C: Family>(
-        &mut self,
-        of: &OfGroup,
-        at: At<'_, D>,
-        contacts: &Contacts<K, D>,
-        share: &mut Share<K, D>,
     ) -> Result<(), StateError> {
         let for_points = for_points(at, contacts);
         let mut exchange = Exchange::none();
-        share.momentum = None;
+        let mut index = 0;
         for member in &mut self.members {
             let arms = member.trial_arms::<C>(of, at);
-            for index in 0..Member::<K, D>::POINTS {
-                let point = &mut member.points.as_mut()[index];
+            for point in member.points.as_mut() {
                 if !point.place::<C>(of, &arms, &mut exchange) {
                     let (element, _) = self.points.place(index);
                     return Err(point.kinematics.refusal(element, &arms.placed));
                 }
-                let own = slice::from_mut(&mut exchange);
-                (self.points).linearize(index, &for_points, own)?;
-                member.take::<C>(index, of, at, contacts, (&arms, &exchange), share);
+                self.points.respond(index, &for_points, &exchange)?;
+                index += 1;
             }
         }
         Ok(())

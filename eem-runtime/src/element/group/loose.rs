@@ -4,7 +4,7 @@ use core::any::{Any, TypeId};
 use core::fmt;
 use core::mem;
 
-use super::element_group::ElementGroup;
+use super::element_group::AnyElements;
 use super::interface::{ExplicitGroup, Group, Loose};
 use super::member::{LooseElement, Member, places};
 use super::model_points::ModelPoints;
@@ -13,7 +13,7 @@ use super::stages::{
     PathModels, PointPath, Projections, StageGroup, StagePoints, StageValues, ValueModels, Values,
 };
 use super::view::Placed;
-use crate::element::conjugates::{Conjugates, OneSet};
+use crate::element::conjugates::{Any as AnyScheme, Conjugates, OneSet};
 use crate::element::kinematics::{MeasureSet, Points, QuadraticStrain, StrainMeasures};
 use crate::element::layout::Shape;
 use crate::element::tableau::Tableau;
@@ -31,16 +31,46 @@ pub(crate) struct LooseElements<K: QuadraticStrain<D>, const D: usize> {
     pub(crate) models: Box<dyn Models<K::Strain>>,
     /// Explicit schemes are compiled for each material: a call of a table takes a good part of their time.
     pub(super) make_explicit: MakeExplicit<D>,
+    /// Makes the group of an exact scheme, if its steps are compiled as a whole.
+    make_exact: Option<MakeExact<K, D>>,
 }
+
+/// See [`LooseElements::make_exact`].
+pub(crate) type MakeExact<K, const D: usize> =
+    fn(OneSet, LooseElements<K, D>, Placed<'_>) -> Box<dyn Group<D>>;
 
 impl<K: QuadraticStrain<D>, const D: usize> LooseElements<K, D> {
     /// No elements yet, of models in the arrays `A`.
-    pub(crate) fn new<A: Arrays>(make_explicit: MakeExplicit<D>) -> Self {
+    pub(crate) fn new<A: Arrays>(
+        make_explicit: MakeExplicit<D>,
+        make_exact: Option<MakeExact<K, D>>,
+    ) -> Self {
         Self {
             elements: Vec::new(),
             models: Box::new(ModelList::<A> { models: Vec::new() }),
             make_explicit,
+            make_exact,
         }
+    }
+
+    /// Its models.
+    ///
+    /// # Panics
+    ///
+    /// If they have other arrays.
+    pub(super) fn take_models<A: Arrays>(&mut self) -> Vec<Tabled<A>> {
+        mem::take(&mut self.list::<A>().models)
+    }
+
+    /// The same without its elements.
+    pub(super) fn without_elements(mut self) -> Self {
+        self.elements = Vec::new();
+        self
+    }
+
+    fn list<A: Arrays>(&mut self) -> &mut ModelList<A> {
+        let list = self.models.as_any_mut().downcast_mut();
+        list.unwrap_or_else(|| unreachable!("the models of a group are of one kind"))
     }
 
     /// Adds an element, with a model for each of its points; returns the index of its first point.
@@ -53,8 +83,7 @@ impl<K: QuadraticStrain<D>, const D: usize> LooseElements<K, D> {
         element: LooseElement<K, D>,
         models: impl IntoIterator<Item = Tabled<A>>,
     ) -> usize {
-        let list = self.models.as_any_mut().downcast_mut::<ModelList<A>>();
-        let list = list.unwrap_or_else(|| unreachable!("the models of a group are of one kind"));
+        let list = self.list::<A>();
         let place = list.models.len();
         list.models.extend(models);
         self.elements.push(element);
@@ -101,12 +130,18 @@ impl<K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseElements<K, D> {
             elements,
             models: self.models.duplicate(),
             make_explicit: self.make_explicit,
+            make_exact: self.make_exact,
         })
     }
 
     fn build(mut self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<D>> {
         match by {
-            Conjugates::One(scheme) => Box::new(ElementGroup::new(scheme, *self, placed)),
+            Conjugates::One(scheme) => match self.make_exact {
+                Some(make) if matches!(scheme, OneSet::Exact(_)) && !self.models.is_together() => {
+                    make(scheme, *self, placed)
+                }
+                _ => Box::new(AnyElements::new(scheme, *self, placed)),
+            },
             Conjugates::Stages(rule) if rule.path.is_some() => {
                 let places = places::<K, D>(&self.elements, placed);
                 let mut strains = Vec::with_capacity(places.len());
@@ -192,6 +227,11 @@ impl<A: Arrays, G: StrainMeasures> Models<G> for ModelList<A> {
         None
     }
 
+    fn is_together(&self) -> bool {
+        let first = self.models.first().and_then(|model| model.together());
+        first.is_some_and(|together| together.least() <= self.models.len())
+    }
+
     fn duplicate(&self) -> Box<dyn Models<G>> {
         let mut models = Vec::with_capacity(self.models.len());
         for model in &self.models {
@@ -215,7 +255,7 @@ impl<A: Arrays, G: StrainMeasures> Models<G> for ModelList<A> {
         let mut models = mem::take(&mut self.models).into_iter();
         let mut sets: Vec<Box<dyn PointSet<G::Measures>>> = Vec::new();
         for places in places.chunks(per_set.max(1)) {
-            let points = ModelPoints::<A, G::Measures>::new(scheme, &mut models, places);
+            let points = ModelPoints::<A, G::Measures, AnyScheme>::new(scheme, &mut models, places);
             sets.push(Box::new(points));
         }
         sets
@@ -242,6 +282,9 @@ impl<A: Arrays, G: StrainMeasures> Models<G> for ModelList<A> {
         places: &[PointPlace],
     ) -> Box<dyn ValueModels<G::Measures>> {
         let models = mem::take(&mut self.models);
+        if const { !G::Measures::IS_SPRING } {
+            unreachable!("not compiled for solids, which these schemes refuse")
+        }
         let points = StagePoints::new(rule, models, places, &mut StageValues::<A>::new);
         Box::new(points)
     }

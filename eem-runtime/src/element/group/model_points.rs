@@ -1,6 +1,7 @@
 //! The points of one model, in a state and in a step.
 
 use core::any::Any;
+use core::marker::PhantomData;
 
 use super::ahead::Ahead;
 use super::arms::measures_in;
@@ -12,14 +13,13 @@ use super::point::{Point, variables};
 #[cfg(feature = "gradients")]
 use super::point_step::SeeParameters;
 use super::points::{
-    Changes, Exchange, HasPoints, Measured, PointEnd, PointPlace, PointSet, PointsInState,
-    TrialView,
+    Exchange, HasPoints, Measured, PointEnd, PointPlace, PointSet, PointsInState, TrialView,
 };
 use super::site::{HeatContact, paths_of};
 use super::stiffness::{Stiffness, stiffness_of};
 use super::view::{Before, ElementTotals, ElementView, StepView};
 use crate::element::conduction::Conduction;
-use crate::element::conjugates::{Any as AnyScheme, Exact, Family, Form, OneSet};
+use crate::element::conjugates::{Family, Form, OneSet};
 use crate::element::error::StateError;
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::state::{Energy, State};
@@ -27,22 +27,20 @@ use crate::element::tally::{Care, Reevaluation, Tally};
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::{Array, Caloric};
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::Scalar;
 use eem_material::tabled::Tabled;
 
-/// Points of the models `A`.
-pub(super) struct ModelPoints<A: Arrays, Q: MeasureSet> {
+/// Points of models in the arrays `A`, with schemes of the family `C`.
+pub(super) struct ModelPoints<A: Arrays, Q: MeasureSet, C> {
     scheme: OneSet,
     pub(super) points: Vec<Point<A, Q>>,
-    /// See [`Old::by_factors`](super::view::Old::by_factors).
-    by_factors: bool,
     /// Workspace for points that are evaluated in one call.
     ahead: Option<Box<Ahead<A>>>,
     #[cfg(feature = "gradients")]
     pub(super) linearized: Option<Box<super::push_forward::Linearized<A>>>,
+    family: PhantomData<C>,
 }
 
-impl<A: Arrays, Q: MeasureSet> ModelPoints<A, Q> {
+impl<A: Arrays, Q: MeasureSet, C: Family> ModelPoints<A, Q, C> {
     /// The points of these models at their places.
     pub(super) fn new(
         scheme: OneSet,
@@ -54,7 +52,7 @@ impl<A: Arrays, Q: MeasureSet> ModelPoints<A, Q> {
         for (&(element, slots), model) in places.iter().zip(models) {
             points.push(Point::new(scheme, element, model, slots));
         }
-        let ahead = if const { Q::IS_SPRING } {
+        let ahead = if const { Q::IS_SPRING && !C::IS_EXACT } {
             Ahead::new(&points)
         } else {
             None
@@ -62,10 +60,10 @@ impl<A: Arrays, Q: MeasureSet> ModelPoints<A, Q> {
         Self {
             scheme,
             points,
-            by_factors: false,
             ahead,
             #[cfg(feature = "gradients")]
             linearized: None,
+            family: PhantomData,
         }
     }
 
@@ -83,7 +81,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     }
 }
 
-impl<A: Arrays, Q: MeasureSet> HasPoints<Q> for ModelPoints<A, Q> {
+impl<A: Arrays, Q: MeasureSet, C: Family> HasPoints<Q> for ModelPoints<A, Q, C> {
     fn in_state(&self) -> &dyn PointsInState<Q> {
         self
     }
@@ -101,7 +99,7 @@ impl<A: Arrays, Q: MeasureSet> HasPoints<Q> for ModelPoints<A, Q> {
     }
 }
 
-impl<A: Arrays, Q: MeasureSet> PointsInState<Q> for ModelPoints<A, Q> {
+impl<A: Arrays, Q: MeasureSet, C: Family> PointsInState<Q> for ModelPoints<A, Q, C> {
     fn place(&self, index: usize) -> PointPlace {
         (self.points[index].element, self.points[index].slots())
     }
@@ -238,124 +236,7 @@ impl<A: Arrays, Q: MeasureSet> PointsInState<Q> for ModelPoints<A, Q> {
     }
 }
 
-/// The functions of a step, for a family of schemes.
-impl<A: Arrays, Q: MeasureSet> ModelPoints<A, Q> {
-    /// Whether the functions of exact schemes are compiled apart from those of all schemes. Not for arrays with room: it would take a step
-    /// 12 % fewer instructions, and the runtime 5 % longer to compile.
-    const IS_SEPARATE: bool = A::Drag::LEN == 0;
-
-    /// Whether those of exact schemes are to be called.
-    #[inline]
-    fn is_exact(&self) -> bool {
-        Self::IS_SEPARATE && matches!(self.scheme, OneSet::Exact(_))
-    }
-
-    fn begin_as<C: Family>(
-        &mut self,
-        view: &StepView<'_>,
-        before: Option<&Before<'_>>,
-        measures: &[Numbers<Q>],
-    ) {
-        for (point, measures) in self.points.iter_mut().zip(measures) {
-            point.begin::<C>(view, before, measures);
-        }
-        if let Some(ahead) = &mut self.ahead
-            && ahead.keep(self.scheme, &mut self.points)
-        {
-            return;
-        }
-        for point in &mut self.points {
-            point.keep_old(view);
-        }
-    }
-
-    fn linearize_as<C: Family>(
-        &mut self,
-        first: usize,
-        at: &TrialView<'_>,
-        exchange: &mut [Exchange<Q>],
-    ) -> Result<(), StateError> {
-        let points = &mut self.points[first..first + exchange.len()];
-        let mut known = None;
-        if let Some(ahead) = &mut self.ahead
-            && ahead.respond((self.scheme, at.is_start), (points, exchange), true)
-        {
-            known = Some(&**ahead);
-        }
-        for (index, (point, exchange)) in points.iter_mut().zip(exchange).enumerate() {
-            let form = known.map(|ahead| ahead.give(index, point));
-            point.linearize::<C>(at, form, exchange)?;
-        }
-        Ok(())
-    }
-
-    fn respond_as<C: Family>(
-        &mut self,
-        at: &TrialView<'_>,
-        exchange: &[Exchange<Q>],
-    ) -> Result<(), StateError> {
-        let points = &mut self.points[..exchange.len()];
-        let mut known = None;
-        if let Some(ahead) = &mut self.ahead
-            && ahead.respond((self.scheme, at.is_start), (points, exchange), false)
-        {
-            known = Some(&**ahead);
-        }
-        for (index, (point, exchange)) in points.iter_mut().zip(exchange).enumerate() {
-            if let Some(ahead) = known {
-                ahead.give(index, point);
-                point.response = ahead.responses[index];
-            }
-            point.respond::<C>(at, exchange, known.is_some())?;
-        }
-        Ok(())
-    }
-
-    fn correct_as<C: Family>(
-        &mut self,
-        changes: &[Changes<Q>],
-        contacts: &[HeatContact],
-        solution: &[[f64; 1]],
-    ) -> f64 {
-        let mut largest = 0.0;
-        for (point, changes) in self.points.iter_mut().zip(changes) {
-            let contact = point.contact_in(contacts);
-            let update = point.correct::<C>(changes, contact, solution, self.by_factors);
-            largest = Scalar::maximum(largest, update);
-        }
-        largest
-    }
-
-    fn pulls_as<C: Family>(&self, forces: &mut [Numbers<Q>]) {
-        for (point, forces) in self.points.iter().zip(forces) {
-            *forces = point.pulls::<C>();
-        }
-    }
-
-    fn close_as<C: Family>(
-        &mut self,
-        at: &TrialView<'_>,
-        ends: &[PointEnd<Q>],
-        (next, tally): (&mut State, &mut Tally),
-    ) -> Result<(), StateError> {
-        let points = &mut self.points[..ends.len()];
-        let mut known = None;
-        if const { A::THERMAL }
-            && !C::is_in_temperature(self.scheme)
-            && let Some(ahead) = &mut self.ahead
-            && ahead.close(points, ends, (at.view.state, next))
-        {
-            known = Some(&**ahead);
-        }
-        for (index, (point, end)) in points.iter_mut().zip(ends).enumerate() {
-            let known = known.map(|ahead| &ahead.caloric[index]);
-            point.close::<C>(at, end, (next, tally), known)?;
-        }
-        Ok(())
-    }
-}
-
-impl<A: Arrays, Q: MeasureSet> PointSet<Q> for ModelPoints<A, Q> {
+impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
     fn connect(&mut self, index: usize, contact: u32, conduction: &Conduction) {
         let point = &mut self.points[index];
         let slot = point.slots().thermal;
@@ -364,17 +245,28 @@ impl<A: Arrays, Q: MeasureSet> PointSet<Q> for ModelPoints<A, Q> {
         point.settling = slot.map_or(0.0, |slot| conduction.settling(slot));
     }
 
+    #[inline]
     fn begin(
         &mut self,
+        index: usize,
         view: &StepView<'_>,
         (before, by_factors): (Option<&Before<'_>>, bool),
-        measures: &[Numbers<Q>],
+        measures: &Numbers<Q>,
     ) {
-        self.by_factors = by_factors;
-        if self.is_exact() {
-            self.begin_as::<Exact>(view, before, measures);
-        } else {
-            self.begin_as::<AnyScheme>(view, before, measures);
+        let point = &mut self.points[index];
+        point.by_factors = by_factors;
+        point.begin::<C>(view, before, measures);
+    }
+
+    #[inline]
+    fn keep(&mut self, view: &StepView<'_>) {
+        if let Some(ahead) = &mut self.ahead
+            && ahead.keep(self.scheme, &mut self.points)
+        {
+            return;
+        }
+        for point in &mut self.points {
+            point.keep_old(view);
         }
     }
 
@@ -387,76 +279,105 @@ impl<A: Arrays, Q: MeasureSet> PointSet<Q> for ModelPoints<A, Q> {
         self.points[index].take_old_share(view, speeds)
     }
 
+    fn is_together(&self) -> bool {
+        self.ahead.is_some()
+    }
+
+    fn evaluate_together(
+        &mut self,
+        at: &TrialView<'_>,
+        measures: &[Numbers<Q>],
+        has_tangent: bool,
+    ) {
+        if let Some(ahead) = &mut self.ahead {
+            let (at, points) = ((self.scheme, at.is_start), &self.points);
+            ahead.is_known = ahead.respond(at, (points, measures), has_tangent);
+        }
+    }
+
+    fn close_together(&mut self, at: &TrialView<'_>, measures: &[Numbers<Q>], next: &mut State) {
+        if let Some(ahead) = &mut self.ahead {
+            let states = (at.view.state, next);
+            ahead.is_known = const { A::THERMAL }
+                && !self.scheme.is_in_temperature()
+                && ahead.close(&self.points, measures, states);
+        }
+    }
+
+    #[inline]
     fn linearize(
         &mut self,
-        first: usize,
+        index: usize,
         at: &TrialView<'_>,
-        exchange: &mut [Exchange<Q>],
+        exchange: &mut Exchange<Q>,
     ) -> Result<(), StateError> {
-        if self.is_exact() {
-            self.linearize_as::<Exact>(first, at, exchange)
-        } else {
-            self.linearize_as::<AnyScheme>(first, at, exchange)
-        }
+        let point = &mut self.points[index];
+        let known = known_of::<A, C>(self.ahead.as_deref());
+        let form = known.map(|ahead| ahead.give(index, point));
+        point.linearize::<C>(at, form, exchange)
     }
 
-    fn respond(&mut self, at: &TrialView<'_>, exchange: &[Exchange<Q>]) -> Result<(), StateError> {
-        if self.is_exact() {
-            self.respond_as::<Exact>(at, exchange)
-        } else {
-            self.respond_as::<AnyScheme>(at, exchange)
+    #[inline]
+    fn respond(
+        &mut self,
+        index: usize,
+        at: &TrialView<'_>,
+        exchange: &Exchange<Q>,
+    ) -> Result<(), StateError> {
+        let point = &mut self.points[index];
+        let known = known_of::<A, C>(self.ahead.as_deref());
+        if let Some(ahead) = known {
+            ahead.give(index, point);
+            point.response = ahead.responses[index];
         }
+        point.respond::<C>(at, exchange, known.is_some())
     }
 
+    #[inline]
     fn correct(
         &mut self,
-        changes: &[Changes<Q>],
+        index: usize,
+        changes: (&Numbers<Q>, f64),
         contacts: &[HeatContact],
         solution: &[[f64; 1]],
     ) -> f64 {
-        if const { Self::IS_SEPARATE } && self.scheme.is_exact() {
-            self.correct_as::<Exact>(changes, contacts, solution)
-        } else {
-            self.correct_as::<AnyScheme>(changes, contacts, solution)
-        }
+        let point = &mut self.points[index];
+        let contact = point.contact_in(contacts);
+        point.correct::<C>(changes, contact, solution)
     }
 
     fn apply(&mut self, share: f64) {
         for point in &mut self.points {
-            point.apply::<AnyScheme>(share, self.by_factors);
+            point.apply::<C>(share);
         }
     }
 
     fn hold(&mut self) {
         for point in &mut self.points {
-            point.hold::<AnyScheme>();
+            point.hold::<C>();
         }
     }
 
-    fn pulls(&self, forces: &mut [Numbers<Q>]) {
-        if self.is_exact() {
-            self.pulls_as::<Exact>(forces);
-        } else {
-            self.pulls_as::<AnyScheme>(forces);
-        }
+    #[inline]
+    fn pull(&self, index: usize) -> Numbers<Q> {
+        self.points[index].pulls::<C>()
     }
 
     fn magnitude_of_pull(&self, index: usize, of_nodes: [&Numbers<Q>; 3]) -> f64 {
         self.points[index].magnitude_of_pull(of_nodes)
     }
 
+    #[inline]
     fn close(
         &mut self,
+        index: usize,
         at: &TrialView<'_>,
-        ends: &[PointEnd<Q>],
-        next: &mut State,
-        tally: &mut Tally,
+        end: &PointEnd<Q>,
+        next_and_tally: (&mut State, &mut Tally),
     ) -> Result<(), StateError> {
-        if self.is_exact() {
-            self.close_as::<Exact>(at, ends, (next, tally))
-        } else {
-            self.close_as::<AnyScheme>(at, ends, (next, tally))
-        }
+        let known = known_of::<A, C>(self.ahead.as_deref());
+        let known = known.map(|ahead| &ahead.caloric[index]);
+        self.points[index].close::<C>(at, end, next_and_tally, known)
     }
 
     fn reevaluate(
@@ -471,6 +392,15 @@ impl<A: Arrays, Q: MeasureSet> PointSet<Q> for ModelPoints<A, Q> {
         let found = Point::<A, Q>::change_of(&point.response, &own.increments);
         reevaluation.element(point.element, own.by_values, own.by_differences, found);
     }
+}
+
+/// What has been evaluated of all points in one call.
+#[inline]
+fn known_of<A: Arrays, C: Family>(ahead: Option<&Ahead<A>>) -> Option<&Ahead<A>> {
+    if C::IS_EXACT {
+        return None;
+    }
+    ahead.filter(|ahead| ahead.is_known)
 }
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {

@@ -7,6 +7,7 @@ use crate::element::conjugates::{Family, OneSet};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Ends, Gradient, Kinematics, Measures};
+use crate::element::layout::Shape;
 use eem_material::free_energy::Array;
 
 /// What it takes to find the measures of a point from the nodes and to bring its forces to them.
@@ -37,6 +38,15 @@ pub(super) struct OfGroup {
 }
 
 impl OfGroup {
+    pub(super) fn new(scheme: OneSet, shape: &Shape) -> Self {
+        Self {
+            scheme,
+            has_drag: shape.drag,
+            is_thermal: shape.thermal,
+            has_unknowns: shape.thermal || shape.dashpots > 0,
+        }
+    }
+
     /// Whether the points need the increments of their measures.
     #[inline]
     pub(super) fn has_increments<C: Family>(&self) -> bool {
@@ -87,14 +97,12 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
         arms: &TrialArms<K, D>,
         exchange: &mut Exchange<K::Measures>,
     ) -> bool {
-        self.new_measures = self.kinematics.measure(&arms.placed);
-        let at = C::placement(of.scheme);
-        let placed = placed_measures::<K, D>(at, &self.measures0, self.new_measures);
-        if !self.kinematics.is_admissible(&arms.placed, &placed) {
+        if !self.measure::<C>(of, arms) {
             return false;
         }
-        (self.measures, exchange.measures) = (placed, placed);
+        exchange.measures = self.measures;
         if of.has_increments::<C>() {
+            let at = C::placement(of.scheme);
             let pose = self.pose::<C>(of, arms);
             exchange.increments = if C::is_exact(of.scheme) {
                 Self::rates_along(&pose.direction, &arms.motion)
@@ -103,6 +111,15 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
             };
         }
         true
+    }
+
+    /// Finds the measures of a trial; false if the deformation is inadmissible.
+    #[inline]
+    pub(super) fn measure<C: Family>(&mut self, of: &OfGroup, arms: &TrialArms<K, D>) -> bool {
+        self.new_measures = self.kinematics.measure(&arms.placed);
+        let at = C::placement(of.scheme);
+        self.measures = placed_measures::<K, D>(at, &self.measures0, self.new_measures);
+        (self.kinematics).is_admissible(&arms.placed, &self.measures)
     }
 
     /// The gradients in the configuration that the scheme uses.

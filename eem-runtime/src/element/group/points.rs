@@ -52,6 +52,9 @@ pub(crate) trait Models<G: StrainMeasures>: Any + Send + Sync {
     /// The first parameter of a model that is not finite, and its value.
     fn infinite_parameter(&self, index: usize) -> Option<(&'static str, f64)>;
 
+    /// Whether several of them may be evaluated in one call.
+    fn is_together(&self) -> bool;
+
     fn duplicate(&self) -> Box<dyn Models<G>>;
 
     /// Takes models back from points.
@@ -229,13 +232,6 @@ impl<Q: MeasureSet> Exchange<Q> {
     }
 }
 
-/// The changes of the measures of a point in a correction, and `δr_s` through the motion alone.
-#[derive(Clone, Copy)]
-pub(crate) struct Changes<Q: MeasureSet> {
-    pub(super) measures: Numbers<Q>,
-    pub(super) heat: f64,
-}
-
 /// The end of a step at a point.
 #[derive(Clone, Copy)]
 pub(crate) struct PointEnd<Q: MeasureSet> {
@@ -247,7 +243,7 @@ pub(crate) struct PointEnd<Q: MeasureSet> {
     pub(super) way: f64,
 }
 
-/// Points with one set of forces in a step. Lists have an entry per point, or end before points that are not asked.
+/// Points with one set of forces in a step. A point is given by its index.
 pub(crate) trait PointSet<Q: MeasureSet>: PointsInState<Q> + HasPoints<Q> {
     /// Takes the index of the contact of a point, out of range without one, and what it needs of its paths of heat.
     fn connect(&mut self, index: usize, contact: u32, conduction: &Conduction);
@@ -255,10 +251,14 @@ pub(crate) trait PointSet<Q: MeasureSet>: PointsInState<Q> + HasPoints<Q> {
     /// Takes over the old state, which has these measures, and starts the trial there.
     fn begin(
         &mut self,
+        index: usize,
         view: &StepView<'_>,
         before_and_by_factors: (Option<&Before<'_>>, bool),
-        measures: &[Numbers<Q>],
+        measures: &Numbers<Q>,
     );
+
+    /// Stores what the scheme keeps of the old states of all points.
+    fn keep(&mut self, view: &StepView<'_>);
 
     /// The forces of the old state, given `π̇⁰`, of which a scheme takes a part.
     fn take_old_share(
@@ -268,21 +268,38 @@ pub(crate) trait PointSet<Q: MeasureSet>: PointsInState<Q> + HasPoints<Q> {
         speeds: &Numbers<Q>,
     ) -> Result<Numbers<Q>, StateError>;
 
-    /// Evaluates responses and tangents, and eliminates the internal variables, from the point `first` on.
+    /// Whether the material evaluates several points in one call.
+    fn is_together(&self) -> bool;
+
+    /// Evaluates all points at these measures in one call; what is found is taken by [`linearize`](Self::linearize) or, without
+    /// tangents, by [`respond`](Self::respond).
+    fn evaluate_together(&mut self, at: &TrialView<'_>, measures: &[Numbers<Q>], has_tangent: bool);
+
+    /// The same for the caloric quantities of new states with these measures, for [`close`](Self::close).
+    fn close_together(&mut self, at: &TrialView<'_>, measures: &[Numbers<Q>], next: &mut State);
+
+    /// Evaluates response and tangent, and eliminates the internal variables.
     fn linearize(
         &mut self,
-        first: usize,
+        index: usize,
         at: &TrialView<'_>,
-        exchange: &mut [Exchange<Q>],
+        exchange: &mut Exchange<Q>,
     ) -> Result<(), StateError>;
 
-    /// Evaluates responses.
-    fn respond(&mut self, at: &TrialView<'_>, exchange: &[Exchange<Q>]) -> Result<(), StateError>;
+    /// Evaluates the response.
+    fn respond(
+        &mut self,
+        index: usize,
+        at: &TrialView<'_>,
+        exchange: &Exchange<Q>,
+    ) -> Result<(), StateError>;
 
-    /// Applies the corrections for a global solution; returns the largest in its unit.
+    /// Applies the corrections for a global solution, given the changes of the measures, and `δr_s` through the motion alone; returns the
+    /// largest in its unit.
     fn correct(
         &mut self,
-        changes: &[Changes<Q>],
+        index: usize,
+        changes: (&Numbers<Q>, f64),
         contacts: &[HeatContact],
         solution: &[[f64; 1]],
     ) -> f64;
@@ -293,19 +310,19 @@ pub(crate) trait PointSet<Q: MeasureSet>: PointsInState<Q> + HasPoints<Q> {
     /// Starts the next correction, of zero, from the present trial.
     fn hold(&mut self);
 
-    /// Writes the forces of the last response of all points.
-    fn pulls(&self, forces: &mut [Numbers<Q>]);
+    /// The forces of the last response.
+    fn pull(&self, index: usize) -> Numbers<Q>;
 
     /// The magnitude of the terms of the force between its nodes, given the sizes, slopes, and sizes of slopes of its measures.
     fn magnitude_of_pull(&self, index: usize, of_nodes: [&Numbers<Q>; 3]) -> f64;
 
-    /// Books the step, finds the new temperatures and energies, and judges the step.
+    /// Books the step, finds the new temperature and energy, and judges the step.
     fn close(
         &mut self,
+        index: usize,
         at: &TrialView<'_>,
-        ends: &[PointEnd<Q>],
-        next: &mut State,
-        tally: &mut Tally,
+        end: &PointEnd<Q>,
+        next_and_tally: (&mut State, &mut Tally),
     ) -> Result<(), StateError>;
 
     /// Adds the energy balance of the last step, given the measures of both states and their increments.

@@ -3,9 +3,10 @@
 #[cfg(not(test))]
 use core::any::Any;
 
+use super::element_group::ExactSprings;
 use super::explicit::{ExplicitElements, ExplicitPoint};
 use super::interface::{ExplicitGroup, Loose};
-use super::loose::{LooseElements, MakeExplicit, ModelList};
+use super::loose::{LooseElements, MakeExact, MakeExplicit, ModelList};
 use super::view::Placed;
 use crate::element::kinematics::Stretch;
 use eem_material::arrays::{Arrays, SpringArrays};
@@ -48,15 +49,28 @@ static SPACE: Springs<3> = Springs::HERE;
 pub(crate) fn group_of<A: Arrays, const D: usize>(
     make_explicit: MakeExplicit<D>,
 ) -> Box<dyn Loose<D>> {
-    Box::new(LooseElements::<Stretch<D>, D>::new::<A>(make_explicit))
+    Box::new(LooseElements::<Stretch<D>, D>::new::<A>(
+        make_explicit,
+        None,
+    ))
+}
+
+/// The same, with steps of exact schemes that are compiled as a whole.
+fn fast_group_of<A: Arrays, const D: usize>(make_explicit: MakeExplicit<D>) -> Box<dyn Loose<D>> {
+    let make_exact: MakeExact<Stretch<D>, D> =
+        |scheme, loose, placed| Box::new(ExactSprings::<A, D>::new(scheme, loose, placed));
+    Box::new(LooseElements::<Stretch<D>, D>::new::<A>(
+        make_explicit,
+        Some(make_exact),
+    ))
 }
 
 impl<const D: usize> Springs<D> {
     /// Compiled where they are used.
     const HERE: Self = Self {
         elastic: group_of::<Elastic, D>,
-        warm: group_of::<Warm, D>,
-        viscous: group_of::<Viscous, D>,
+        warm: fast_group_of::<Warm, D>,
+        viscous: fast_group_of::<Viscous, D>,
         damped: group_of::<Damped, D>,
     };
 

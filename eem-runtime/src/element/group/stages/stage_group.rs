@@ -79,10 +79,7 @@ impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> StageGroup<K, G, 
             rule,
             elements: Blocks::new(elements, vec![models], per_block),
             members,
-            loose: LooseElements {
-                elements: Vec::new(),
-                ..loose
-            },
+            loose: loose.without_elements(),
             forces: Box::new(StageForces::zero()),
             local: LocalStages::new(unknowns, inputs),
         }
@@ -146,8 +143,8 @@ impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> Group<D> for Stag
     fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>> {
         let mut loose = self.loose;
         let mut take_back = |own| loose.models.take_back(own);
-        let elements = self.elements.into_loose(&mut take_back);
-        Box::new(LooseElements { elements, ..loose })
+        loose.elements = self.elements.into_loose(&mut take_back);
+        Box::new(loose)
     }
 
     fn connect(&mut self, sites: &Sites<'_, D>) {

@@ -8,7 +8,7 @@ use super::point::{LocalStages, Outside, StagePoint};
 use super::projection::PointPath;
 use super::values::StageValues;
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::{OneSet, PointRule};
+use crate::element::conjugates::{Any as AnyScheme, OneSet, PointRule};
 use crate::element::error::StateError;
 use crate::element::group::model_points::ModelPoints;
 use crate::element::group::point::Point;
@@ -24,7 +24,7 @@ use eem_material::tabled::Tabled;
 /// The points of models in the arrays `A`, with equations `E`.
 pub(crate) struct StagePoints<A: Arrays, Q: MeasureSet, E> {
     rule: &'static Tableau,
-    in_state: ModelPoints<A, Q>,
+    in_state: ModelPoints<A, Q, AnyScheme>,
     equations: Vec<E>,
 }
 
