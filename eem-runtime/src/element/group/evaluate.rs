@@ -48,18 +48,21 @@ where
                 if !C::IS_EXACT && block.points.is_together() {
                     block.evaluate_together::<C>(of, at, contacts, true);
                 }
-                for index in 0..block.members.len() {
+                let Block { members, points } = block;
+                for (index, member) in members.iter_mut().enumerate() {
                     let mut share = Share::none();
-                    block.linearize::<C>(index, of, at, contacts, &mut share)?;
-                    let target = (&mut *values, &mut *right);
-                    block.members[index].add_share(&share, contacts, target);
+                    member.linearize::<C, P>((index, points), of, at, contacts, &mut share)?;
+                    member.add_share(&share, contacts, (&mut *values, &mut *right));
                 }
             }
             return Ok(());
         }
         let linearize = |block: &mut Block<K, P, D>, share: &mut Share<K, D>| {
-            (0..block.members.len())
-                .try_for_each(|index| block.linearize::<C>(index, of, at, contacts, share))
+            let points = &mut *block.points;
+            let mut members = block.members.iter_mut().enumerate();
+            members.try_for_each(|(index, member)| {
+                member.linearize::<C, P>((index, points), of, at, contacts, share)
+            })
         };
         let mut add = |block: &Block<K, P, D>, share: &Share<K, D>| {
             for member in &block.members {
@@ -115,38 +118,6 @@ impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<
         (self.points).evaluate_together(&at, &measures[..count], has_tangent);
     }
 
-    /// Evaluates the points of an element, and its contribution to the system of an iteration.
-    #[expect(
-        clippy::inline_always,
-        reason = "a call of its own costs 1 % of a step of a spring"
-    )]
-    #[inline(always)]
-    fn linearize<C: Family>(
-        &mut self,
-        index: usize,
-        of: &OfGroup,
-        at: At<'_, D>,
-        contacts: &Contacts<K, D>,
-        share: &mut Share<K, D>,
-    ) -> Result<(), StateError> {
-        let for_points = for_points(at, contacts);
-        let member = &mut self.members[index];
-        let arms = member.trial_arms::<C>(of, at);
-        let mut exchange = Exchange::none();
-        share.momentum = None;
-        for point in 0..Member::<K, D>::POINTS {
-            let place = index * Member::<K, D>::POINTS + point;
-            let own = &mut member.points.as_mut()[point];
-            if !own.place::<C>(of, &arms, &mut exchange) {
-                let (element, _) = self.points.place(place);
-                return Err(own.kinematics.refusal(element, &arms.placed));
-            }
-            (self.points).linearize(place, &for_points, &mut exchange)?;
-            member.take::<C>(point, of, at, contacts, (&arms, &exchange), share);
-        }
-        Ok(())
-    }
-
     #[inline]
     fn respond<C: Family>(
         &mut self,
@@ -173,6 +144,37 @@ impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<
 }
 
 impl<K: Kinematics<D>, const D: usize> Member<K, D> {
+    /// Evaluates the points of an element, and its contribution to the system of an iteration.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call of its own costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
+    fn linearize<C: Family, P: ?Sized + PointSet<K::Measures>>(
+        &mut self,
+        (index, points): (usize, &mut P),
+        of: &OfGroup,
+        at: At<'_, D>,
+        contacts: &Contacts<K, D>,
+        share: &mut Share<K, D>,
+    ) -> Result<(), StateError> {
+        let for_points = for_points(at, contacts);
+        let arms = self.trial_arms::<C>(of, at);
+        let mut exchange = Exchange::none();
+        share.momentum = None;
+        for point in 0..Member::<K, D>::POINTS {
+            let place = index * Member::<K, D>::POINTS + point;
+            let own = &mut self.points.as_mut()[point];
+            if !own.place::<C>(of, &arms, &mut exchange) {
+                let (element, _) = points.place(place);
+                return Err(own.kinematics.refusal(element, &arms.placed));
+            }
+            points.linearize(place, &for_points, &mut exchange)?;
+            self.take::<C>(point, of, at, contacts, (&arms, &exchange), share);
+        }
+        Ok(())
+    }
+
     /// Takes the answer of a point into the contribution of the element.
     #[expect(
         clippy::inline_always,

@@ -79,20 +79,21 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
         (view, trial): At<'_, D>,
     ) -> TrialArms<K, D> {
         let at = C::placement(of.scheme);
+        let mut motion = self.r0;
+        if of.has_increments::<C>() {
+            motion = self.motion(1.0 - C::implicit(of.scheme), view, trial);
+        }
         TrialArms {
             old: self.r0,
             placed: placed_arms::<K, D>(at, &self.r0, self.new_arms(trial)),
-            motion: self.motion::<C>(of, view, trial),
+            motion,
         }
     }
 
-    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms, if it is needed.
-    #[inline]
-    fn motion<C: Family>(&self, of: &OfGroup, view: &StepView<'_>, trial: &Trial<D>) -> Arms<K, D> {
-        if !of.has_increments::<C>() {
-            return self.r0;
-        }
-        let rest = (1.0 - C::implicit(of.scheme)) * view.step;
+    /// The motion `r¹ − r⁰ − share h ṙ⁰` of the arms.
+    #[inline(never)]
+    fn motion(&self, share: f64, view: &StepView<'_>, trial: &Trial<D>) -> Arms<K, D> {
+        let rest = share * view.step;
         let mut motion = change_in::<K, D>(&self.site.nodes, trial);
         let velocities = self.old_velocities(view);
         add_scaled::<K, D>(&mut motion, -rest, &velocities);
@@ -118,8 +119,8 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
 impl<K: Kinematics<D>, P: ?Sized, const D: usize> Block<K, P, D> {
     /// Each element with the index of its first point.
     pub(super) fn elements(&self) -> impl Iterator<Item = (usize, &Member<K, D>)> {
-        let firsts = (0..).step_by(Member::<K, D>::POINTS);
-        firsts.zip(&self.members)
+        let members = self.members.iter().enumerate();
+        members.map(|(index, member)| (index * Member::<K, D>::POINTS, member))
     }
 }
 

@@ -236,6 +236,10 @@ impl<A: Arrays, Q: MeasureSet, C: Family> PointsInState<Q> for ModelPoints<A, Q,
     }
 }
 
+#[expect(
+    clippy::inline_always,
+    reason = "where the points are not behind a table, a step is compiled as a whole"
+)]
 impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
     fn connect(&mut self, index: usize, contact: u32, conduction: &Conduction) {
         let point = &mut self.points[index];
@@ -245,7 +249,7 @@ impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
         point.settling = slot.map_or(0.0, |slot| conduction.settling(slot));
     }
 
-    #[inline]
+    #[inline(always)]
     fn begin(
         &mut self,
         index: usize,
@@ -258,7 +262,7 @@ impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
         point.begin::<C>(view, before, measures);
     }
 
-    #[inline]
+    #[inline(always)]
     fn keep(&mut self, view: &StepView<'_>) {
         if let Some(ahead) = &mut self.ahead
             && ahead.keep(self.scheme, &mut self.points)
@@ -304,7 +308,7 @@ impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn linearize(
         &mut self,
         index: usize,
@@ -317,7 +321,7 @@ impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
         point.linearize::<C>(at, form, exchange)
     }
 
-    #[inline]
+    #[inline(always)]
     fn respond(
         &mut self,
         index: usize,
@@ -333,7 +337,7 @@ impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
         point.respond::<C>(at, exchange, known.is_some())
     }
 
-    #[inline]
+    #[inline(always)]
     fn correct(
         &mut self,
         index: usize,
@@ -358,7 +362,7 @@ impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn pull(&self, index: usize) -> Numbers<Q> {
         self.points[index].pulls::<C>()
     }
@@ -367,7 +371,7 @@ impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
         self.points[index].magnitude_of_pull(of_nodes)
     }
 
-    #[inline]
+    #[inline(always)]
     fn close(
         &mut self,
         index: usize,

@@ -47,10 +47,10 @@ impl OfGroup {
         }
     }
 
-    /// Whether the points need the increments of their measures.
+    /// Whether the points need the increments of their measures. Elements of a known family have no Kelvin–Voigt dashpots.
     #[inline]
     pub(super) fn has_increments<C: Family>(&self) -> bool {
-        self.has_drag || self.is_thermal && C::is_in_temperature(self.scheme)
+        !C::IS_EXACT && (self.has_drag || self.is_thermal && self.scheme.is_in_temperature())
     }
 }
 
