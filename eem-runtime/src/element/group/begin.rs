@@ -53,7 +53,9 @@ impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<
         if C::implicit(of.scheme) < 1.0 {
             self.take_old_share(of, view, old.force)?;
         }
-        self.points.keep(view);
+        if !C::IS_EXACT && self.points.is_together() {
+            self.points.keep_together(view);
+        }
         Ok(())
     }
 

@@ -15,6 +15,8 @@ use super::point_step::SeeParameters;
 use super::points::{
     Exchange, HasPoints, Measured, PointEnd, PointPlace, PointSet, PointsInState, TrialView,
 };
+#[cfg(feature = "gradients")]
+use super::push_forward::Linearized;
 use super::site::{HeatContact, paths_of};
 use super::stiffness::{Stiffness, stiffness_of};
 use super::view::{Before, ElementTotals, ElementView, StepView};
@@ -35,8 +37,12 @@ pub(super) struct ModelPoints<A: Arrays, Q: MeasureSet, C> {
     pub(super) points: Vec<Point<A, Q>>,
     /// Workspace for points that are evaluated in one call.
     ahead: Option<Box<Ahead<A>>>,
+    /// The equations of the point that was linearized last in a completed step.
     #[cfg(feature = "gradients")]
-    pub(super) linearized: Option<Box<super::push_forward::Linearized<A>>>,
+    pub(super) linearized: Option<Box<Linearized<A>>>,
+    /// For derivatives by parameters.
+    #[cfg(feature = "gradients")]
+    pub(super) workspaces: [Vec<f64>; 2],
     family: PhantomData<C>,
 }
 
@@ -63,6 +69,8 @@ impl<A: Arrays, Q: MeasureSet, C: Family> ModelPoints<A, Q, C> {
             ahead,
             #[cfg(feature = "gradients")]
             linearized: None,
+            #[cfg(feature = "gradients")]
+            workspaces: [const { Vec::new() }; 2],
             family: PhantomData,
         }
     }
@@ -260,17 +268,18 @@ impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
         let point = &mut self.points[index];
         point.by_factors = by_factors;
         point.begin::<C>(view, before, measures);
+        if C::IS_EXACT || self.ahead.is_none() {
+            point.keep_old(view);
+        }
     }
 
-    #[inline(always)]
-    fn keep(&mut self, view: &StepView<'_>) {
+    fn keep_together(&mut self, view: &StepView<'_>) {
         if let Some(ahead) = &mut self.ahead
-            && ahead.keep(self.scheme, &mut self.points)
+            && !ahead.keep(self.scheme, &mut self.points)
         {
-            return;
-        }
-        for point in &mut self.points {
-            point.keep_old(view);
+            for point in &mut self.points {
+                point.keep_old(view);
+            }
         }
     }
 
@@ -470,9 +479,6 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
             };
             let slot = self.slots().thermal.unwrap_or_default();
             exchange.heat.value -= at.interface.values()[slot];
-        }
-        if !at.view.phase.moves() {
-            return;
         }
         for a in 0..A::MEASURES {
             exchange.forces[a] = form.0[a];

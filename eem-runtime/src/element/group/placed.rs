@@ -116,9 +116,12 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
     /// Finds the measures of a trial; false if the deformation is inadmissible.
     #[inline]
     pub(super) fn measure<C: Family>(&mut self, of: &OfGroup, arms: &TrialArms<K, D>) -> bool {
-        self.new_measures = self.kinematics.measure(&arms.placed);
+        let measures = self.kinematics.measure(&arms.placed);
         let at = C::placement(of.scheme);
-        self.measures = placed_measures::<K, D>(at, &self.measures0, self.new_measures);
+        self.measures = placed_measures::<K, D>(at, &self.measures0, measures);
+        if !C::IS_EXACT {
+            self.new_measures = measures;
+        }
         (self.kinematics).is_admissible(&arms.placed, &self.measures)
     }
 
@@ -129,7 +132,12 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
     )]
     #[inline(always)]
     pub(super) fn pose<C: Family>(&self, of: &OfGroup, arms: &TrialArms<K, D>) -> Pose<K, D> {
-        let measures = [self.measures0, self.new_measures];
+        let new = if C::IS_EXACT {
+            self.measures
+        } else {
+            self.new_measures
+        };
+        let measures = [self.measures0, new];
         let ends = Ends::new(&self.kinematics, [arms.old, arms.placed], measures);
         Pose::new(&self.kinematics, C::placement(of.scheme), ends)
     }

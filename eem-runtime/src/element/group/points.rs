@@ -12,7 +12,7 @@ use super::generic::PointGeneric;
 #[cfg(feature = "gradients")]
 use super::point_step::{Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
 #[cfg(feature = "gradients")]
-use super::pull_back::{Reduced, Surroundings, WeightedMeasures};
+use super::pull_back::{Reduced, Surroundings, Weighed};
 use super::site::HeatContact;
 use super::stages::{PathModels, ValueModels};
 use super::stiffness::Stiffness;
@@ -244,7 +244,9 @@ pub(crate) struct PointEnd<Q: MeasureSet> {
 }
 
 /// Points with one set of forces in a step. A point is given by its index.
-pub(crate) trait PointSet<Q: MeasureSet>: PointsInState<Q> + HasPoints<Q> {
+pub(crate) trait PointSet<Q: MeasureSet>:
+    PointsInState<Q> + HasPoints<Q> + PastPoints<Q>
+{
     /// Takes the index of the contact of a point, out of range without one, and what it needs of its paths of heat.
     fn connect(&mut self, index: usize, contact: u32, conduction: &Conduction);
 
@@ -257,8 +259,8 @@ pub(crate) trait PointSet<Q: MeasureSet>: PointsInState<Q> + HasPoints<Q> {
         measures: &Numbers<Q>,
     );
 
-    /// Stores what the scheme keeps of the old states of all points.
-    fn keep(&mut self, view: &StepView<'_>);
+    /// Finds in one call what the scheme keeps of the old states of all points, after they have begun.
+    fn keep_together(&mut self, view: &StepView<'_>);
 
     /// The forces of the old state, given `π̇⁰`, of which a scheme takes a part.
     fn take_old_share(
@@ -333,8 +335,11 @@ pub(crate) trait PointSet<Q: MeasureSet>: PointsInState<Q> + HasPoints<Q> {
         ends: [&State; 2],
         reevaluation: &mut Reevaluation,
     );
+}
 
-    /// Returns to a completed step between two states with these measures; θ*.
+/// Points in a completed step between two states, for its adjoint and its tangents. Nothing without the feature `gradients`.
+pub(crate) trait PastPoints<Q: MeasureSet> {
+    /// Returns to the step, whose states have these measures; θ*.
     #[cfg(feature = "gradients")]
     fn find_interface(
         &mut self,
@@ -343,7 +348,7 @@ pub(crate) trait PointSet<Q: MeasureSet>: PointsInState<Q> + HasPoints<Q> {
         measures: [&Numbers<Q>; 2],
     ) -> Result<f64, StateError>;
 
-    /// Returns to a completed step, unless [`find_interface`](Self::find_interface) has, and eliminates the weights of its own equations.
+    /// Returns to the step, unless [`find_interface`](Self::find_interface) has, and eliminates the weights of its own equations.
     #[cfg(feature = "gradients")]
     fn condense_transposed(
         &mut self,
@@ -354,18 +359,18 @@ pub(crate) trait PointSet<Q: MeasureSet>: PointsInState<Q> + HasPoints<Q> {
     ) -> Result<Reduced<Q>, StateError>;
 
     /// Finds the weights of its equations, given `D*π·w_v`: writes the derivatives by the old internal variables, passes those by the
-    /// parameters to `see`, and returns those by the measures.
+    /// parameters to `see`, and returns those by the measures; those by the new ones only if they are asked for.
     #[cfg(feature = "gradients")]
     fn weigh(
-        &self,
+        &mut self,
         index: usize,
         around: &Surroundings<'_>,
-        along: &Numbers<Q>,
+        along_and_by_new: (&Numbers<Q>, bool),
         found: (&mut PerVariable, &mut StepWeights),
         see: &mut SeeParameters<'_>,
-    ) -> WeightedMeasures<Q>;
+    ) -> Weighed<Q>;
 
-    /// Returns to a completed step, unless [`find_interface`](Self::find_interface) has, and linearizes its equations.
+    /// Returns to the step, unless [`find_interface`](Self::find_interface) has, and linearizes its equations; with θ*.
     #[cfg(feature = "gradients")]
     fn linearize_past(
         &mut self,
@@ -373,12 +378,12 @@ pub(crate) trait PointSet<Q: MeasureSet>: PointsInState<Q> + HasPoints<Q> {
         step: &PastStep<'_>,
         around: (&InterfaceTemperatures, Option<&HeatContact>),
         measures: [&Numbers<Q>; 2],
-    ) -> Result<Exchange<Q>, StateError>;
+    ) -> Result<(Exchange<Q>, f64), StateError>;
 
     /// The change of the forces of the point that was linearized last, along a direction in which its old measures change by `moved`.
     #[cfg(feature = "gradients")]
     fn push(
-        &mut self,
+        &self,
         index: usize,
         step: &PastStep<'_>,
         around: (&InterfaceTemperatures, Option<&HeatContact>),
@@ -386,7 +391,7 @@ pub(crate) trait PointSet<Q: MeasureSet>: PointsInState<Q> + HasPoints<Q> {
         direction: &mut Direction,
     ) -> Result<Numbers<Q>, StateError>;
 
-    /// Finds the changes of its internal variables and of θ*.
+    /// Finds the changes of its internal variables and of θ*, given those of its measures.
     #[cfg(feature = "gradients")]
     fn follow(
         &self,
@@ -396,3 +401,6 @@ pub(crate) trait PointSet<Q: MeasureSet>: PointsInState<Q> + HasPoints<Q> {
         direction: &mut Direction,
     );
 }
+
+#[cfg(not(feature = "gradients"))]
+impl<T, Q: MeasureSet> PastPoints<Q> for T {}

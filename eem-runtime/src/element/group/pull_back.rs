@@ -13,45 +13,52 @@
 mod condensed;
 mod weights;
 
-use super::arms::{scale, spread};
+use super::arms::{add_scaled, scale, spread};
 use super::element_group::ElementGroup;
 use super::evaluate::in_rounds;
-use super::member::Member;
-use super::point::temperature_in;
+use super::member::{Block, Member};
+use super::placed::PlacedPoint;
 use super::point_step::{PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
+use super::points::PointSet;
 use super::pose::Pose;
-use super::share::{Heat, Momentum, Share};
-use super::site::{Contact, Site, paths_of};
+use super::share::{Contacts, Heat, Momentum, Share};
+use super::site::{ContactSite, HeatContact, Site, paths_of};
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::{Exact, Family};
+use crate::element::conjugates::{Family, Placement};
 use crate::element::error::StateError;
-use crate::element::kinematics::{Arms, Kinematics, Points};
-use crate::element::state::State;
-use eem_material::arrays::Arrays;
+use crate::element::kinematics::{Arms, Ends, Gradient, Kinematics, Measures, QuadraticStrain};
 use eem_material::free_energy::Array;
-use weights::Surroundings;
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
+pub(crate) use condensed::Reduced;
+pub(crate) use weights::{Surroundings, Weighed};
+
+impl<K, P, C, const D: usize> ElementGroup<K, P, C, D>
+where
+    K: QuadraticStrain<D>,
+    P: ?Sized + PointSet<K::Measures>,
+    C: Family,
+{
     /// Finds the interface temperatures θ* of a step. Points that have one return to the states of the step.
     pub(super) fn find_interfaces(
         &mut self,
         step: &PastStep<'_>,
         interface: &mut InterfaceTemperatures,
     ) -> Result<(), StateError> {
-        for member in &mut self.members {
-            let arms = member.past_arms(step);
-            for point in member.points.as_mut() {
-                if let Some(slot) = point.slots().thermal
-                    && point.contact_in(&self.contacts).is_some()
-                {
-                    point.return_to(step, &arms)?;
-                    let (model, corners) = (&point.model, &point.corners);
-                    let response =
-                        point
-                            .start
-                            .response::<Exact>(point.scheme, model, &point.x, corners);
-                    interface.set(slot, temperature_in::<A>(&response));
+        for Block { members, points } in &mut self.elements.blocks {
+            let mut index = 0;
+            for member in members {
+                let arms = member.past_arms(step);
+                for point in member.points.as_ref() {
+                    let (_, slots) = points.place(index);
+                    if let Some(slot) = slots.thermal
+                        && point.contact_in(&self.contacts.heat).is_some()
+                    {
+                        let ends = point.past_ends(arms);
+                        let theta = points.find_interface(index, step, ends.measures.each_ref())?;
+                        interface.set(slot, theta);
+                    }
+                    index += 1;
                 }
             }
         }
@@ -67,21 +74,39 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
     ) -> Result<(), StateError> {
         let (values, right) = system.parts();
         let contacts = &self.contacts;
-        let of_one = |member: &mut Member<A, K, D>, share: &mut Share<K, D>| {
-            member.pull_back(contacts, step, interface, share)
-        };
-        let mut add = |member: &Member<A, K, D>, share: &Share<K, D>| {
-            member.add_transposed(share, contacts, (&mut *values, &mut *right));
-        };
-        if const { K::PerPoint::<()>::LEN > 1 } {
-            return in_rounds(&mut self.members, &mut self.shares, &of_one, &mut add);
+        if const { Member::<K, D>::POINTS == 1 } {
+            for Block { members, points } in &mut self.elements.blocks {
+                for (index, member) in members.iter_mut().enumerate() {
+                    let mut share = Share::none();
+                    member.pull_back(
+                        (index, &mut **points),
+                        contacts,
+                        (step, interface),
+                        &mut share,
+                    )?;
+                    member.add_transposed(&share, contacts, (&mut *values, &mut *right));
+                }
+            }
+            return Ok(());
         }
-        for member in &mut self.members {
-            let mut share = Share::none();
-            of_one(member, &mut share)?;
-            add(member, &share);
-        }
-        Ok(())
+        let of_one = |block: &mut Block<K, P, D>, share: &mut Share<K, D>| {
+            let (points, at) = (&mut *block.points, (step, interface));
+            let mut members = block.members.iter_mut().enumerate();
+            members.try_for_each(|(index, member)| {
+                member.pull_back((index, points), contacts, at, share)
+            })
+        };
+        let mut add = |block: &Block<K, P, D>, share: &Share<K, D>| {
+            for member in &block.members {
+                member.add_transposed(share, contacts, (&mut *values, &mut *right));
+            }
+        };
+        in_rounds(
+            &mut self.elements.blocks,
+            &mut self.shares,
+            &of_one,
+            &mut add,
+        )
     }
 
     /// Finds the derivatives with respect to the old state and to the parameters, given the solution of that system.
@@ -94,96 +119,82 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
         see: &mut SeeParameters<'_>,
     ) {
         let h = step.past.view.step;
-        let mut workspaces = [const { Vec::new() }; 2];
-        for member in &mut self.members {
-            let w = member.site.motion_in(solution);
-            let arms = member.past_arms(&step.past);
-            let is_held = member.site.is_mass.as_ref().contains(&false);
-            let mut by_arms = [Arms::<K, D>::filled([0.0; D]); 2];
-            for point in member.points.as_mut() {
-                let contact = point.contact_in(&self.contacts);
-                let around = Surroundings {
-                    step,
-                    interface,
-                    paths: paths_of(contact),
-                    theta: contact.map_or(0.0, |own| solution[own.unknown as usize][0]),
-                };
-                let [by_end, by_start] = &mut by_arms;
-                let ends = point.ends(arms);
-                let along = point.kinematics.discrete_rates(&ends, &w);
-                let of_point = point.weigh(&around, &along);
-                let by = point.by_old(&of_point.rho, &of_point.increments);
-                let back = point.ends_back(arms);
-                point.add_by_arms(&back, &by, &w, h, by_start);
-                if is_held {
-                    let by = point.by_new(&of_point.rho, &of_point.increments);
-                    point.add_by_arms(&ends, &by, &w, h, by_end);
+        for Block { members, points } in &mut self.elements.blocks {
+            let mut index = 0;
+            for member in members {
+                let w = member.site.motion_in(solution);
+                let arms = member.past_arms(&step.past);
+                let is_held = member.site.is_mass.as_ref().contains(&false);
+                let mut by_arms = [Arms::<K, D>::filled([0.0; D]); 2];
+                for point in member.points.as_ref() {
+                    let contact = point.contact_in(&self.contacts.heat);
+                    let around = Surroundings {
+                        step,
+                        interface,
+                        paths: paths_of(contact),
+                        theta: contact.map_or(0.0, |own| solution[own.unknown as usize][0]),
+                    };
+                    let [by_end, by_start] = &mut by_arms;
+                    let kinematics = &point.kinematics;
+                    let past = point.past_ends(arms);
+                    let ends = past.forward(kinematics);
+                    let along = kinematics.discrete_rates(&ends, &w);
+                    let found = (&mut *by_old, &mut *weights);
+                    let of_point = points.weigh(index, &around, (&along, is_held), found, see);
+                    let mut forces = of_point.forces;
+                    for force in forces.as_mut() {
+                        *force *= h;
+                    }
+                    let add = |ends: &Ends<K, D>, by: &Measures<K, D>, sum: &mut Arms<K, D>| {
+                        let pulled = kinematics.pull_back(ends, by, (&forces, &w));
+                        add_scaled::<K, D>(sum, 1.0, &pulled);
+                    };
+                    add(&past.back(kinematics), &of_point.by_old, by_start);
+                    if is_held {
+                        add(&ends, &of_point.by_new, by_end);
+                    }
+                    index += 1;
                 }
-                point.write(&by, &of_point, by_old, weights);
-                weights.by_size.add_all(&of_point.by_size);
-                see(
-                    point.element,
-                    point.by_parameters(&of_point, &mut workspaces),
-                );
-            }
-            let [by_end, by_start] = by_arms;
-            member
-                .site
-                .subtract(&by_start, false, &mut by_old.positions);
-            if is_held {
-                member.site.subtract(&by_end, true, &mut by_old.positions);
-                let [old, new] = &mut weights.anchors;
-                member.site.subtract(&by_start, true, old);
-                member.site.subtract(&by_end, true, new);
-            }
-        }
-    }
-
-    /// Passes the derivatives of the internal energies with respect to the parameters in a state to `see`.
-    pub(super) fn energy_by_parameters(&self, state: &State, see: &mut SeeParameters<'_>) {
-        let mut found = Vec::new();
-        for member in &self.members {
-            for point in member.points.as_ref() {
-                let x = point.variables_in(&member.arms_in(state), state);
-                found.resize(point.model.facts().derivatives, 0.0);
-                point.model.energy_by_parameters(&x, &mut found);
-                see(point.element, &found);
+                let [by_end, by_start] = by_arms;
+                member
+                    .site
+                    .subtract(&by_start, false, &mut by_old.positions);
+                if is_held {
+                    member.site.subtract(&by_end, true, &mut by_old.positions);
+                    let [old, new] = &mut weights.anchors;
+                    member.site.subtract(&by_start, true, old);
+                    member.site.subtract(&by_end, true, new);
+                }
             }
         }
     }
 }
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
-    /// The contribution of its points to the transposed system.
+impl<K: Kinematics<D>, const D: usize> Member<K, D> {
+    /// Finds the contribution of the element to the transposed system.
     #[inline]
-    fn pull_back(
+    fn pull_back<P: ?Sized + PointSet<K::Measures>>(
         &mut self,
-        contacts: &[Contact<K, D>],
-        step: &StepBack<'_>,
-        interface: &InterfaceTemperatures,
+        (index, points): (usize, &mut P),
+        contacts: &Contacts<K, D>,
+        (step, interface): (&StepBack<'_>, &InterfaceTemperatures),
         share: &mut Share<K, D>,
     ) -> Result<(), StateError> {
-        let (past, arms) = (&step.past, self.past_arms(&step.past));
+        let arms = self.past_arms(&step.past);
+        let first = index * Self::POINTS;
         share.momentum = None;
-        for (point, heat) in self.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
-            let contact = point.contact_in(contacts);
-            if contact.is_none() {
-                point.return_to(past, &arms)?;
-            }
-            let form = point.tangent_in(past.view.per_step)?;
-            let reduced = point.condense_transposed(step, interface, &form, paths_of(contact))?;
-            let pose = Pose::new(
-                &point.kinematics,
-                Exact::placement(point.scheme),
-                point.ends(arms),
-            );
-            *heat = contact.map(|_| point.heat_transposed(past.view.step, &pose, &reduced));
-            point.add_transposed(
-                past.view.step,
-                &pose,
-                (&form, &reduced),
-                &mut share.momentum,
-            );
+        let own = self.points.as_ref().iter().zip(share.heat.as_mut());
+        for (index, (point, heat)) in (first..).zip(own) {
+            let contact = point.contact_in(&contacts.heat);
+            let past = point.past_ends(arms);
+            let around = (interface, contact);
+            let measures = past.measures.each_ref();
+            let reduced = points.condense_transposed(index, step, around, measures)?;
+            let ends = past.forward(&point.kinematics);
+            let pose = Pose::new(&point.kinematics, Placement::Ends, ends);
+            let h = step.past.view.step;
+            *heat = contact.map(|_| heat_transposed(h, &pose, &reduced));
+            point.add_transposed(h, &pose, &reduced, &mut share.momentum);
         }
         Ok(())
     }
@@ -193,13 +204,13 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     fn add_transposed(
         &self,
         share: &Share<K, D>,
-        contacts: &[Contact<K, D>],
+        contacts: &Contacts<K, D>,
         (values, right): (&mut [f64], &mut [[f64; 1]]),
     ) {
         let heats = share.heat.as_ref().iter().zip(self.points.as_ref());
         for (heat, point) in heats {
-            if let (Some(heat), Some(contact)) = (heat, point.contact_in(contacts)) {
-                contact.add_transposed(&self.site, heat, (&mut *values, &mut *right));
+            if let (Some(heat), Some((contact, own))) = (heat, contacts.of(point)) {
+                own.add_transposed(contact, &self.site, heat, (&mut *values, &mut *right));
             }
         }
         if let Some(momentum) = &share.momentum {
@@ -207,6 +218,69 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
                 .add_transposed(momentum, right.as_flattened_mut(), values);
         }
     }
+}
+
+impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
+    /// Adds the derivatives of `wᵀR` with respect to the arms: the constant part, and that linear in `w_v`, its rows.
+    #[inline]
+    fn add_transposed(
+        &self,
+        step: f64,
+        pose: &Pose<K, D>,
+        reduced: &Reduced<K::Measures>,
+        sum: &mut Option<Momentum<K, D>>,
+    ) {
+        let (kinematics, at) = (&self.kinematics, Placement::Ends);
+        let mut forces = Measures::<K, D>::filled(0.0);
+        let mut by_arm = pose.sensitivity;
+        for a in 0..Measures::<K, D>::LEN {
+            forces[a] = step * reduced.forces[a];
+            by_arm[a] = combined::<K, D>(&pose.sensitivity, &reduced.moduli[a], step);
+        }
+        let pull = combined::<K, D>(&pose.sensitivity, &reduced.constant, 1.0);
+        match sum {
+            None => {
+                *sum = Some(Momentum {
+                    pull,
+                    blocks: pose.tangent(kinematics, at, &forces, &by_arm),
+                });
+            }
+            Some(sum) => {
+                add_scaled::<K, D>(&mut sum.pull, 1.0, &pull);
+                pose.add_tangent(kinematics, at, (&forces, &by_arm), &mut sum.blocks);
+            }
+        }
+    }
+}
+
+/// The terms of the interface temperatures of a point, its own and its partners': `by_arm` is the derivative of `wᵀR` with respect
+/// to `w_Θ` and the arms. `−(∂R_s/∂Q) w_s` is `pull` times `w_v` plus `slope` times `w_Θ` plus `residual`.
+fn heat_transposed<K: Kinematics<D>, const D: usize>(
+    step: f64,
+    pose: &Pose<K, D>,
+    reduced: &Reduced<K::Measures>,
+) -> Heat<K, D> {
+    let (own, factor) = (&reduced.own_weight, reduced.heat_factor);
+    Heat {
+        residual: factor * own.value,
+        by_arm: combined::<K, D>(&pose.sensitivity, &reduced.by_heat, 1.0),
+        slope: factor * own.by_heat,
+        pull: combined::<K, D>(&pose.direction, &own.by_measure, step * factor),
+    }
+}
+
+/// `factor Σ_b slopes_b rows_b`.
+#[inline]
+fn combined<K: Kinematics<D>, const D: usize>(
+    rows: &Gradient<K, D>,
+    slopes: &Measures<K, D>,
+    factor: f64,
+) -> Arms<K, D> {
+    let mut sum = Arms::<K, D>::filled([0.0; D]);
+    for (row, &slope) in rows.as_ref().iter().zip(slopes.as_ref()) {
+        add_scaled::<K, D>(&mut sum, factor * slope, row);
+    }
+    sum
 }
 
 impl<K: Kinematics<D>, const D: usize> Site<K, D> {
@@ -244,17 +318,18 @@ impl<K: Kinematics<D>, const D: usize> Site<K, D> {
     }
 }
 
-impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
-    /// Adds the transposed equations of interface temperatures, see [`Point::heat_transposed`].
+impl<K: Kinematics<D>, const D: usize> ContactSite<K, D> {
+    /// Adds the transposed equations of interface temperatures, see [`heat_transposed`].
     fn add_transposed(
         &self,
+        contact: &HeatContact,
         site: &Site<K, D>,
         heat: &Heat<K, D>,
         (values, right): (&mut [f64], &mut [[f64; 1]]),
     ) {
         site.add_column(&self.column, &heat.by_arm, values);
         let mut sum = 0.0;
-        for (path, partner) in self.paths.iter().zip(&self.partners) {
+        for (path, partner) in contact.paths.iter().zip(&self.partners) {
             let conductance = path.conductance;
             sum += conductance;
             let mut pull = heat.pull;
@@ -266,7 +341,7 @@ impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
         let mut pull = heat.pull;
         scale::<K, D>(&mut pull, -sum);
         site.subtract_arms(&pull, &self.row, values);
-        values[self.diagonal as usize] += 1.0 + sum * heat.slope;
-        right[self.unknown as usize][0] -= sum * heat.residual;
+        values[contact.diagonal as usize] += 1.0 + sum * heat.slope;
+        right[contact.unknown as usize][0] -= sum * heat.residual;
     }
 }

@@ -14,72 +14,58 @@ mod changes;
 
 use super::arms::{along, dot};
 use super::element_group::ElementGroup;
-use super::member::Member;
-use super::placed::PlacedPoint;
-use super::point::temperature_in;
+use super::member::{Block, Member};
+use super::placed::{OfGroup, PlacedPoint};
 use super::point_step::{Direction, PastStep};
+use super::points::PointSet;
 use super::pose::Pose;
-use super::share::Share;
-use super::site::{Contact, Site, paths_of};
+use super::share::{Contacts, Share};
+use super::site::Site;
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::{Exact, Family};
+use crate::element::conjugates::{Exact, Family, Placement};
 use crate::element::error::StateError;
-use crate::element::group::arms::{add_scaled, points, scale};
-use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics};
-use eem_material::arrays::Arrays;
+use crate::element::group::arms::{add_scaled, points as points_of, scale};
+use crate::element::kinematics::{
+    Arms, Blocks, Ends, Gradient, Kinematics, Measures, QuadraticStrain,
+};
+use crate::element::layout::Slots;
 use eem_material::free_energy::Array;
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
+pub(super) use changes::Linearized;
+
+impl<K, P, C, const D: usize> ElementGroup<K, P, C, D>
+where
+    K: QuadraticStrain<D>,
+    P: ?Sized + PointSet<K::Measures>,
+    C: Family,
+{
     /// Adds `∂R/∂x¹` of a step, local unknowns eliminated, to a system, and `−dR` to the right-hand side of each direction.
     /// In its new state, anchors and prescribed temperatures already have their changes, and masses those of the old state.
     pub(super) fn push_forward(
         &mut self,
         step: &PastStep<'_>,
-        (interface, temperatures): (&InterfaceTemperatures, &mut [f64]),
+        temperatures: (&InterfaceTemperatures, &mut [f64]),
         system: &mut LinearSystem<1>,
         directions: &mut [Direction],
     ) -> Result<(), StateError> {
         let (values, right) = system.parts();
-        for member in &mut self.members {
-            let mut share = Share::<K, D>::none();
-            let mut by_old = None;
-            let arms = member.past_arms(step);
-            for (point, heat) in member.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
-                let contact = point.contact_in(&self.contacts);
-                if contact.is_none() {
-                    point.return_to(step, &arms)?;
-                }
-                let ends = point.ends(arms);
-                let pose = Pose::new(&point.kinematics, Exact::placement(point.scheme), ends);
-                let ends = point.ends_back(arms);
-                let paths = paths_of(contact);
-                point.sensitivity = pose.sensitivity;
-                let by_old_arms = point.kinematics.new_gradient(&ends);
-                let linear = point.linearize_past(step, interface, paths)?;
-                *heat = contact.map(|_| point.heat::<Exact>(interface, &linear.form));
-                let form = (&linear.form, None);
-                point.add_momentum::<Exact>(step.view.step, &pose, form, heat, &mut share.momentum);
-                point.add_old_curvature(step.view.step, &ends, &mut by_old);
-                if let Some(slot) = point.slots().thermal {
-                    temperatures[slot] = temperature_in::<A>(&linear.form.0);
-                }
+        let ((interface, temperatures), contacts) = (temperatures, &self.contacts);
+        for Block { members, points } in &mut self.elements.blocks {
+            for (index, member) in members.iter_mut().enumerate() {
+                let (points, temperatures) =
+                    ((index, &mut **points), (interface, &mut *temperatures));
+                let (share, by_old) = member.push_forward(
+                    points,
+                    (step, &self.of),
+                    contacts,
+                    temperatures,
+                    directions,
+                )?;
+                member.add_share(&share, contacts, (&mut *values, &mut *right));
                 for direction in &mut *directions {
-                    let moved = member.site.changes_in(&direction.old.positions);
-                    let moved = PlacedPoint::<A, K, D>::rates_along(&by_old_arms, &moved);
-                    let change = point.change(step, (interface, paths), &moved, &linear, direction);
-                    let unknown = contact.map(|contact| contact.unknown as usize);
-                    let forces = point.push(&linear, &change, unknown, direction)?;
-                    let mut pull =
-                        pose.pull(&point.kinematics, Exact::placement(point.scheme), &forces);
-                    scale::<K, D>(&mut pull, step.view.step);
-                    let right = direction.right.as_flattened_mut();
-                    member.site.subtract_arms(&pull, &member.site.rows, right);
+                    member.add_motion(&share, by_old.as_ref(), contacts, direction);
                 }
-            }
-            member.add_share(&share, &self.contacts, (&mut *values, &mut *right));
-            for direction in &mut *directions {
-                member.add_motion(&share, by_old.as_ref(), &self.contacts, direction);
             }
         }
         Ok(())
@@ -87,35 +73,90 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
 
     /// Finds the changes of the internal variables and of θ*.
     pub(super) fn follow(&self, directions: &mut [Direction]) {
-        for member in &self.members {
-            for direction in &mut *directions {
-                let moved = member.site.changes_in(&direction.new.positions);
-                for point in member.points.as_ref() {
-                    let changes = PlacedPoint::<A, K, D>::rates_along(&point.sensitivity, &moved);
-                    let heat = point.contact_in(&self.contacts).map(|contact| {
-                        point.condensed.heat_factor * contact.heat(&direction.right)
-                    });
-                    point.follow(&changes, heat, direction);
+        for block in &self.elements.blocks {
+            for (first, member) in block.elements() {
+                for direction in &mut *directions {
+                    let moved = member.site.changes_in(&direction.new.positions);
+                    for (index, point) in (first..).zip(member.points.as_ref()) {
+                        let changes = PlacedPoint::<K, D>::rates_along(&point.sensitivity, &moved);
+                        let contact = point.contact_in(&self.contacts.heat);
+                        block.points.follow(index, &changes, contact, direction);
+                    }
                 }
             }
         }
     }
 }
 
-impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
+impl<K: Kinematics<D>, const D: usize> Member<K, D> {
+    /// The contribution of the element to the tangent, and the derivatives of its impulses with respect to the old arms at given forces; adds
+    /// the changes with the old state to the directions.
+    fn push_forward<P: ?Sized + PointSet<K::Measures>>(
+        &mut self,
+        (index, points): (usize, &mut P),
+        (step, of): (&PastStep<'_>, &OfGroup),
+        contacts: &Contacts<K, D>,
+        (interface, temperatures): (&InterfaceTemperatures, &mut [f64]),
+        directions: &mut [Direction],
+    ) -> Result<(Share<K, D>, Option<Blocks<K, D>>), StateError> {
+        let mut share = Share::<K, D>::none();
+        let mut by_old = None;
+        let (h, arms) = (step.view.step, self.past_arms(step));
+        let first = index * Self::POINTS;
+        let own = self.points.as_mut().iter_mut().zip(share.heat.as_mut());
+        for (index, (point, heat)) in (first..).zip(own) {
+            let contact = point.contact_in(&contacts.heat);
+            let past = point.past_ends(arms);
+            let (ends, back) = (
+                past.forward(&point.kinematics),
+                past.back(&point.kinematics),
+            );
+            let pose = Pose::new(&point.kinematics, Placement::Ends, ends);
+            point.sensitivity = pose.sensitivity;
+            let by_old_arms = point.kinematics.new_gradient(&back);
+            let around = (interface, contact);
+            let measures = past.measures.each_ref();
+            let (exchange, theta) = points.linearize_past(index, step, around, measures)?;
+            *heat = contact.map(|_| point.heat::<Exact>(&exchange));
+            let momentum = &mut share.momentum;
+            point.add_momentum::<Exact>((of, h), (&pose, None), &exchange, heat, momentum);
+            point.add_old_curvature(h, &back, exchange.forces, &mut by_old);
+            if let (
+                _,
+                Slots {
+                    thermal: Some(slot),
+                    ..
+                },
+            ) = points.place(index)
+            {
+                temperatures[slot] = theta;
+            }
+            for direction in &mut *directions {
+                let moved = self.site.changes_in(&direction.old.positions);
+                let moved = PlacedPoint::<K, D>::rates_along(&by_old_arms, &moved);
+                let forces = points.push(index, step, around, &moved, direction)?;
+                let mut pull = pose.pull(&point.kinematics, Placement::Ends, &forces);
+                scale::<K, D>(&mut pull, h);
+                let right = direction.right.as_flattened_mut();
+                self.site.subtract_arms(&pull, &self.site.rows, right);
+            }
+        }
+        Ok((share, by_old))
+    }
+
     /// Adds the changes with the old arms through the gradients, and all changes with the new arms.
     fn add_motion(
         &self,
         share: &Share<K, D>,
         by_old: Option<&Blocks<K, D>>,
-        contacts: &[Contact<K, D>],
+        contacts: &Contacts<K, D>,
         direction: &mut Direction,
     ) {
         let [old, new] =
             [&direction.old, &direction.new].map(|own| self.site.changes_in(&own.positions));
         let right = direction.right.as_flattened_mut();
         for (heat, point) in share.heat.as_ref().iter().zip(self.points.as_ref()) {
-            if let (Some(heat), Some(contact)) = (heat, point.contact_in(contacts)) {
+            if let (Some(heat), Some(contact)) = (heat, point.contact_in(&contacts.heat)) {
                 right[contact.unknown as usize] += along::<K, D>(&heat.by_arm, &new);
             }
         }
@@ -128,11 +169,32 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     }
 }
 
+impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
+    /// Adds the derivative of its impulses with respect to the old arms at given forces.
+    #[inline]
+    fn add_old_curvature(
+        &self,
+        step: f64,
+        back: &Ends<K, D>,
+        mut forces: Measures<K, D>,
+        sum: &mut Option<Blocks<K, D>>,
+    ) {
+        for force in forces.as_mut() {
+            *force *= step;
+        }
+        let (kinematics, still) = (&self.kinematics, still::<K, D>());
+        match sum {
+            None => *sum = Some(kinematics.discrete_tangent(back, &forces, &still)),
+            Some(sum) => kinematics.add_discrete_tangent(back, &forces, &still, sum),
+        }
+    }
+}
+
 impl<K: Kinematics<D>, const D: usize> Site<K, D> {
     /// The changes of the arms, given those of all coordinates.
     #[inline]
     fn changes_in(&self, positions: &[f64]) -> Arms<K, D> {
-        let at = points::<D>(positions);
+        let at = points_of::<D>(positions);
         let nodes = self.nodes.as_ref();
         let first = at[nodes[0] as usize];
         let mut arms = Arms::<K, D>::filled(first);

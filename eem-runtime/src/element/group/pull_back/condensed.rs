@@ -1,28 +1,31 @@
 //! The transposed equations of a point, and their elimination.
 
 use crate::element::conduction::{InterfaceTemperatures, Partner};
-use crate::element::conjugates::{Exact, Family, Form};
+use crate::element::conjugates::{Exact, Form};
 use crate::element::error::StateError;
-use crate::element::group::arms::{add_scaled, measures_in};
+use crate::element::group::arms::measures_in;
+use crate::element::group::condensed::CondensedRow;
 use crate::element::group::eliminate::{LocalSystem, eliminate};
-use crate::element::group::placed::PlacedPoint;
 use crate::element::group::point::{Point, temperature_in};
 use crate::element::group::point_step::StepBack;
-use crate::element::group::pose::Pose;
-use crate::element::group::share::{Heat, Momentum};
 use crate::element::group::site::HeatPath;
 use crate::element::group::view::StepView;
-use crate::element::kinematics::{Arms, Gradient, Kinematics, MeasureSet, Measures, Numbers};
+use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// The transposed equations of a point after the elimination of its own weights:
 /// `Σ_a h (D*π_a·w_v) moduli_a + w_Θ by_heat + constant`, by measure.
-pub(super) struct Reduced<Q: MeasureSet> {
-    moduli: Q::Per<Numbers<Q>>,
-    by_heat: Numbers<Q>,
-    constant: Numbers<Q>,
+pub(crate) struct Reduced<Q: MeasureSet> {
+    pub(super) moduli: Q::Per<Numbers<Q>>,
+    pub(super) by_heat: Numbers<Q>,
+    pub(super) constant: Numbers<Q>,
+    /// Its forces.
+    pub(super) forces: Numbers<Q>,
+    /// The weight of its balance of heat as a function of those numbers, without the sign, and `∂r_s/∂Q`.
+    pub(super) own_weight: CondensedRow<Numbers<Q>>,
+    pub(super) heat_factor: f64,
 }
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
@@ -49,7 +52,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
 
     /// Eliminates its own weights, which are stored as functions of the others.
     #[inline]
-    pub(super) fn condense_transposed(
+    pub(in crate::element::group) fn condense_transposed(
         &mut self,
         step: &StepBack<'_>,
         interface: &InterfaceTemperatures,
@@ -62,6 +65,9 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
             moduli: Q::Per::filled(zeros),
             by_heat: zeros,
             constant: zeros,
+            forces: measures_in::<Q>(response),
+            own_weight: CondensedRow::none(),
+            heat_factor: 0.0,
         };
         for a in 0..A::MEASURES {
             reduced.moduli[a] = measures_in::<Q>(&tangent[a]);
@@ -119,74 +125,13 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
                 }
             }
         }
+        let (own, condensed) = (A::DASHPOTS, &self.condensed);
+        reduced.heat_factor = condensed.heat_factor;
+        reduced.own_weight.value = condensed.constant.get(own);
+        reduced.own_weight.by_heat = condensed.by_heat.get(own);
+        for a in 0..A::MEASURES {
+            reduced.own_weight.by_measure[a] = condensed.by_measure[a].get(own);
+        }
         Ok(reduced)
     }
-}
-
-impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
-    /// Adds the derivatives of `wᵀR` with respect to the arms: the constant part, and that linear in `w_v`, its rows.
-    #[inline]
-    pub(super) fn add_transposed(
-        &self,
-        step: f64,
-        pose: &Pose<K, D>,
-        (form, reduced): (&Form<A>, &Reduced<K::Measures>),
-        sum: &mut Option<Momentum<K, D>>,
-    ) {
-        let (kinematics, at) = (&self.kinematics, Exact::placement(self.scheme));
-        let mut forces = Measures::<K, D>::filled(0.0);
-        let mut by_arm = pose.sensitivity;
-        for a in 0..A::MEASURES {
-            forces[a] = step * form.0[a];
-            by_arm[a] = combined::<K, D>(&pose.sensitivity, &reduced.moduli[a], step);
-        }
-        let pull = combined::<K, D>(&pose.sensitivity, &reduced.constant, 1.0);
-        match sum {
-            None => {
-                *sum = Some(Momentum {
-                    pull,
-                    blocks: pose.tangent(kinematics, at, &forces, &by_arm),
-                });
-            }
-            Some(sum) => {
-                add_scaled::<K, D>(&mut sum.pull, 1.0, &pull);
-                pose.add_tangent(kinematics, at, (&forces, &by_arm), &mut sum.blocks);
-            }
-        }
-    }
-
-    /// The terms of the interface temperatures, its own and its partners': `by_arm` is the derivative of `wᵀR` with respect
-    /// to `w_Θ` and the arms. `−(∂R_s/∂Q) w_s` is `pull` times `w_v` plus `slope` times `w_Θ` plus `residual`.
-    pub(super) fn heat_transposed(
-        &self,
-        step: f64,
-        pose: &Pose<K, D>,
-        reduced: &Reduced<K::Measures>,
-    ) -> Heat<K, D> {
-        let (own, factor) = (A::DASHPOTS, self.condensed.heat_factor);
-        let mut by_measure = Measures::<K, D>::filled(0.0);
-        for a in 0..A::MEASURES {
-            by_measure[a] = self.condensed.by_measure[a].get(own);
-        }
-        Heat {
-            residual: factor * self.condensed.constant.get(own),
-            by_arm: combined::<K, D>(&pose.sensitivity, &reduced.by_heat, 1.0),
-            slope: factor * self.condensed.by_heat.get(own),
-            pull: combined::<K, D>(&pose.direction, &by_measure, step * factor),
-        }
-    }
-}
-
-/// `factor Σ_b slopes_b rows_b`.
-#[inline]
-fn combined<K: Kinematics<D>, const D: usize>(
-    rows: &Gradient<K, D>,
-    slopes: &Measures<K, D>,
-    factor: f64,
-) -> Arms<K, D> {
-    let mut sum = Arms::<K, D>::filled([0.0; D]);
-    for (row, &slope) in rows.as_ref().iter().zip(slopes.as_ref()) {
-        add_scaled::<K, D>(&mut sum, factor * slope, row);
-    }
-    sum
 }

@@ -2,19 +2,18 @@
 
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::Exact;
-use crate::element::group::arms::{add_scaled, measures_in};
-use crate::element::group::placed::PlacedPoint;
+use crate::element::group::arms::measures_in;
 use crate::element::group::point::Point;
-use crate::element::group::point_step::{PerVariable, StepBack, StepWeights};
+use crate::element::group::point_step::{PerVariable, SeeParameters, StepBack, StepWeights};
 use crate::element::group::site::HeatPath;
 use crate::element::group::terms::Terms;
-use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Numbers};
+use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// The inputs of the weights of a point besides its own values.
-pub(super) struct Surroundings<'a> {
+pub(crate) struct Surroundings<'a> {
     pub(super) step: &'a StepBack<'a>,
     pub(super) interface: &'a InterfaceTemperatures,
     pub(super) paths: Option<&'a [HeatPath]>,
@@ -22,9 +21,16 @@ pub(super) struct Surroundings<'a> {
     pub(super) theta: f64,
 }
 
+/// The forces of a point, and the derivatives of `wᵀR` with respect to its old and its new measures.
+pub(crate) struct Weighed<Q: MeasureSet> {
+    pub(super) forces: Numbers<Q>,
+    pub(super) by_old: Numbers<Q>,
+    pub(super) by_new: Numbers<Q>,
+}
+
 /// The derivatives of `wᵀR` with respect to the response, the increments and the viscosities of a point, its terms of
 /// `−(∂R/∂h)ᵀ w`, and the weight of its balance of heat.
-pub(super) struct OfPoint<A: Arrays> {
+struct OfPoint<A: Arrays> {
     pub(super) rho: A::Response,
     pub(super) increments: A::Variables,
     pub(super) by_size: Terms,
@@ -34,6 +40,31 @@ pub(super) struct OfPoint<A: Arrays> {
 }
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
+    /// See [`PastPoints::weigh`](crate::element::group::points::PastPoints::weigh).
+    pub(in crate::element::group) fn weighed(
+        &self,
+        around: &Surroundings<'_>,
+        (along, has_by_new): (&Numbers<Q>, bool),
+        (by_old, weights): (&mut PerVariable, &mut StepWeights),
+        (see, workspaces): (&mut SeeParameters<'_>, &mut [Vec<f64>; 2]),
+    ) -> Weighed<Q> {
+        let of_point = self.weigh(around, along);
+        let by = self.by_old(&of_point.rho, &of_point.increments);
+        let mut weighed = Weighed {
+            forces: self.pulls::<Exact>(),
+            by_old: measures_in::<Q>(&by),
+            by_new: Numbers::<Q>::filled(0.0),
+        };
+        if has_by_new {
+            let by = self.by_new(&of_point.rho, &of_point.increments);
+            weighed.by_new = measures_in::<Q>(&by);
+        }
+        self.write(&by, &of_point, by_old, weights);
+        weights.by_size.add_all(&of_point.by_size);
+        see(self.element, self.by_parameters(&of_point, workspaces));
+        weighed
+    }
+
     /// The weights of its equations, given `D*π·w_v`, and its terms of `−(∂R/∂h)ᵀ w`. The forces
     /// there are replaced by inertia, by means of the momentum balances,
     ///
@@ -43,7 +74,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     ///
     /// The term with M is not included.
     #[inline]
-    pub(super) fn weigh(&self, around: &Surroundings<'_>, along: &Numbers<Q>) -> OfPoint<A> {
+    fn weigh(&self, around: &Surroundings<'_>, along: &Numbers<Q>) -> OfPoint<A> {
         let (h, per_step) = (around.step.past.view.step, around.step.past.view.per_step);
         let own = |u: usize| {
             let mut sum = self.condensed.constant.get(u);
@@ -119,12 +150,12 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
 
     /// The derivatives of `wᵀR` with respect to the variables of the old state.
     #[inline]
-    pub(super) fn by_old(&self, rho: &A::Response, increments: &A::Variables) -> A::Variables {
+    fn by_old(&self, rho: &A::Response, increments: &A::Variables) -> A::Variables {
         self.pulled(rho, &self.slopes_by_old(), increments, -1.0)
     }
 
     /// The derivatives of `wᵀR` with respect to the variables of the new state, without those to prescribed temperatures.
-    pub(super) fn by_new(&self, rho: &A::Response, increments: &A::Variables) -> A::Variables {
+    fn by_new(&self, rho: &A::Response, increments: &A::Variables) -> A::Variables {
         let (_, tangent) = self.form::<Exact>(false);
         self.pulled(rho, &tangent, increments, 1.0)
     }
@@ -152,7 +183,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
 
     /// Writes the derivatives with respect to its old internal variables, and the weights of its balance of heat.
     #[inline]
-    pub(super) fn write(
+    fn write(
         &self,
         by: &A::Variables,
         of: &OfPoint<A>,
@@ -175,11 +206,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
 
     /// The derivatives of the number with respect to the parameters in this step, in the first of two workspaces.
     #[inline]
-    pub(super) fn by_parameters<'a>(
-        &self,
-        of: &OfPoint<A>,
-        [sum, by]: &'a mut [Vec<f64>; 2],
-    ) -> &'a [f64] {
+    fn by_parameters<'a>(&self, of: &OfPoint<A>, [sum, by]: &'a mut [Vec<f64>; 2]) -> &'a [f64] {
         for workspace in [&mut *sum, &mut *by] {
             workspace.resize(self.model.facts().derivatives, 0.0);
         }
@@ -198,27 +225,6 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
             *entry = -*entry;
         }
         sum
-    }
-}
-
-impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
-    /// Adds the derivatives of `wᵀR` with respect to the arms of the second of two ends, given those to its variables.
-    #[inline]
-    pub(super) fn add_by_arms(
-        &self,
-        ends: &Ends<K, D>,
-        by: &A::Variables,
-        w: &Arms<K, D>,
-        step: f64,
-        sum: &mut Arms<K, D>,
-    ) {
-        let mut forces = self.pulls::<Exact>();
-        for force in forces.as_mut() {
-            *force *= step;
-        }
-        let by = measures_in::<K::Measures>(by);
-        let pulled = self.kinematics.pull_back(ends, &by, (&forces, w));
-        add_scaled::<K, D>(sum, 1.0, &pulled);
     }
 }
 

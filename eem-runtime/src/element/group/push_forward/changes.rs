@@ -1,23 +1,21 @@
 //! The changes of the equations of a point along a direction, and of its internal variables.
 
-use super::still;
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::{Exact, Form};
 use crate::element::error::StateError;
 use crate::element::group::eliminate::{LocalSystem, eliminate};
-use crate::element::group::placed::PlacedPoint;
 use crate::element::group::point::{Point, temperature_in};
 use crate::element::group::point_step::{Direction, PastStep};
 use crate::element::group::site::HeatPath;
-use crate::element::kinematics::{Blocks, Ends, Kinematics, MeasureSet, Numbers};
+use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 /// The derivatives of the equations of a point, the same for all directions.
-pub(super) struct Linearized<A: Arrays> {
+pub(in crate::element::group) struct Linearized<A: Arrays> {
     /// With the forces of Kelvin–Voigt dashpots.
-    pub(super) form: Form<A>,
+    pub(in crate::element::group) form: Form<A>,
     /// Of the response with respect to the variables of the old state.
     by_old: A::Tangent,
     /// The local equations before the elimination.
@@ -25,7 +23,7 @@ pub(super) struct Linearized<A: Arrays> {
 }
 
 /// The changes of the forces, the local equations and θ* of a point at constant new variables.
-pub(super) struct Change<A: Arrays> {
+pub(in crate::element::group) struct Change<A: Arrays> {
     forces: A::Variables,
     local: A::Variables,
     theta: f64,
@@ -40,7 +38,7 @@ struct ViscosityChanges<A: Arrays> {
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Linearizes its equations at both states, set by `return_to`, and eliminates its unknowns.
     #[inline]
-    pub(super) fn linearize_past(
+    pub(in crate::element::group) fn linearize_past(
         &mut self,
         step: &PastStep<'_>,
         interface: &InterfaceTemperatures,
@@ -78,7 +76,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
 
     /// The changes of its equations along a direction, in which its old measures change by `moved`.
     #[inline]
-    pub(super) fn change(
+    pub(in crate::element::group) fn change(
         &self,
         step: &PastStep<'_>,
         (interface, paths): (&InterfaceTemperatures, Option<&[HeatPath]>),
@@ -190,7 +188,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Eliminates its unknowns: keeps their constants in the new state of the direction, and returns the change of the forces.
     /// `unknown` is the row of its interface temperature.
     #[inline]
-    pub(super) fn push(
+    pub(in crate::element::group) fn push(
         &self,
         linear: &Linearized<A>,
         change: &Change<A>,
@@ -233,7 +231,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
 
     /// Finds the changes of its internal variables and of θ*, given those of its measures and `δr_s` of a contact.
     #[inline]
-    pub(super) fn follow(
+    pub(in crate::element::group) fn follow(
         &self,
         changes: &Numbers<Q>,
         heat: Option<f64>,
@@ -264,27 +262,6 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
         }
         if let Some(slot) = thermal {
             direction.middle[slot] += sum_of(self.slopes[Self::TEMPERATURE].as_ref(), x.as_ref());
-        }
-    }
-}
-
-impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
-    /// Adds the derivative of its impulses with respect to the old arms at given forces.
-    #[inline]
-    pub(super) fn add_old_curvature(
-        &self,
-        step: f64,
-        back: &Ends<K, D>,
-        sum: &mut Option<Blocks<K, D>>,
-    ) {
-        let mut forces = self.pulls::<Exact>();
-        for force in forces.as_mut() {
-            *force *= step;
-        }
-        let (kinematics, still) = (&self.kinematics, still::<K, D>());
-        match sum {
-            None => *sum = Some(kinematics.discrete_tangent(back, &forces, &still)),
-            Some(sum) => kinematics.add_discrete_tangent(back, &forces, &still, sum),
         }
     }
 }

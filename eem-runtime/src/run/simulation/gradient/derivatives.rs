@@ -224,9 +224,11 @@ impl<const D: usize> Simulation<D> {
         for group in &mut newton.groups {
             let mut see_element = |element| see_energy(&element, weight, see);
             (group.elements_mut()).generic_in(state, &mut see_element);
-            group.energy_by_parameters(state, &mut |element, values| {
-                see(Of::Parameters(element.index(), values), weight);
-            });
+            group
+                .elements()
+                .energy_by_parameters(state, &mut |element, values| {
+                    see(Of::Parameters(element.index(), values), weight);
+                });
         }
     }
 }
