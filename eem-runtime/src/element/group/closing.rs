@@ -9,6 +9,7 @@
 //! [`conduction`](crate::element::conduction). Both ends of a path use the same numbers.
 
 use super::arms::{add_scaled, change_in, mean, spread};
+use super::certify::sizes_of;
 use super::evaluate::{At, for_points};
 use super::member::{Block, Member};
 use super::placed::{OfGroup, PlacedPoint};
@@ -16,7 +17,7 @@ use super::point::Point;
 use super::points::{PointEnd, PointSet, TrialView};
 use super::pose::Pose;
 use super::share::Contacts;
-use super::site::HeatPath;
+use super::site::{HeatPath, paths_of};
 use super::ways::way_of_nodes;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::conduction::{InterfaceTemperatures, Partner};
@@ -28,7 +29,7 @@ use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Measures, W
 use crate::element::state::State;
 use crate::element::tally::{Care, Tally};
 use eem_material::arrays::Arrays;
-use eem_material::free_energy::{Array, MOST_TOGETHER};
+use eem_material::free_energy::{Array, Caloric, MOST_TOGETHER};
 
 impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<K, P, D> {
     /// Adds the impulses of the last responses, and the magnitudes of their terms if they are asked for.
@@ -253,6 +254,49 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
     ) -> K::PerNode<[f64; D]> {
         let pose = Pose::between(&self.kinematics, at, ends, self.measures0);
         spread::<K, D>(&pose.pull(&self.kinematics, at, forces))
+    }
+}
+
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
+    /// Books the step, recovers the new temperature and judges the step. The caloric quantities at the temperature of the
+    /// trial may be known.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call costs 0.8 % of a step of a spring"
+    )]
+    #[inline(always)]
+    pub(super) fn close<C: Family>(
+        &mut self,
+        at: &TrialView<'_>,
+        end: &PointEnd<Q>,
+        (next, tally): (&mut State, &mut Tally),
+        known: Option<&(Caloric<f64>, f64)>,
+    ) -> Result<(), StateError> {
+        let view = at.view;
+        let outside = (paths_of(self.contact_in(at.contacts)), at.interface);
+        let received = self.book::<C>(view, outside, next, tally);
+        let near = (self.x[A::Variables::LEN - 1], known);
+        if let Some(entropy) = self.recover_temperature::<C>(&end.measures, view, near, next)? {
+            self.book_thermostat(view, [entropy, received.entropy], next);
+        }
+        if !C::is_exact(self.scheme) {
+            return Ok(());
+        }
+        let sizes = [
+            sizes_of(end.sizes[0].as_ref(), &self.start.x0),
+            sizes_of(end.sizes[1].as_ref(), &self.x),
+        ];
+        let largest = self.largest_pull::<C>(&end.slopes);
+        let is_thorough = matches!(tally.care, Care::Thorough);
+        let of_sums = is_thorough.then(|| largest * end.way);
+        let [forces, at_end] = self.amplitude::<C>(&sizes, of_sums);
+        tally.force(forces);
+        tally.exchange(view.step * largest);
+        let energy = &mut next.energies[self.element.index()];
+        energy.add_secants(at_end, self.is_thermal());
+        let terms = [energy.magnitude + forces, energy.heat_capacity];
+        self.judge::<C>(view, outside, &sizes[1], (received, terms), tally);
+        Ok(())
     }
 }
 

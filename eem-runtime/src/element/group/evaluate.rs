@@ -170,7 +170,7 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
                 return Err(own.kinematics.refusal(element, &arms.placed));
             }
             points.linearize(place, &for_points, &mut exchange)?;
-            self.take::<C>(point, of, at, contacts, (&arms, &exchange), share);
+            self.take::<C>(point, of, at, (&arms, &exchange), share);
         }
         Ok(())
     }
@@ -186,7 +186,6 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
         index: usize,
         of: &OfGroup,
         (view, _): At<'_, D>,
-        contacts: &Contacts<K, D>,
         (arms, exchange): (&TrialArms<K, D>, &Exchange<K::Measures>),
         share: &mut Share<K, D>,
     ) {
@@ -194,8 +193,7 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
         let pose = point.pose::<C>(of, arms);
         let by_arm = point.take_sensitivity::<C>(of, &pose, arms, exchange);
         let heat = &mut share.heat.as_mut()[index];
-        let contact = point.contact_in(&contacts.heat);
-        *heat = contact.map(|_| point.heat::<C>(exchange));
+        *heat = exchange.is_coupled.then(|| point.heat::<C>(exchange));
         if view.phase.moves() {
             let of = (of, view.step);
             let pose = (&pose, by_arm.as_ref());

@@ -6,7 +6,6 @@ use core::marker::PhantomData;
 use super::ahead::Ahead;
 use super::arms::measures_in;
 use super::audit::Misfit;
-use super::certify::sizes_of;
 use super::generic::PointGeneric;
 use super::inspect::digest_kind;
 use super::point::{Point, variables};
@@ -17,17 +16,17 @@ use super::points::{
 };
 #[cfg(feature = "gradients")]
 use super::push_forward::Linearized;
-use super::site::{HeatContact, paths_of};
+use super::site::HeatContact;
 use super::stiffness::{Stiffness, stiffness_of};
 use super::view::{Before, ElementTotals, ElementView, StepView};
 use crate::element::conduction::Conduction;
-use crate::element::conjugates::{Family, Form, OneSet};
+use crate::element::conjugates::{Family, OneSet};
 use crate::element::error::StateError;
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::state::{Energy, State};
-use crate::element::tally::{Care, Reevaluation, Tally};
+use crate::element::tally::{Reevaluation, Tally};
 use eem_material::arrays::Arrays;
-use eem_material::free_energy::{Array, Caloric};
+use eem_material::free_energy::Array;
 use eem_material::number::digest::Digest;
 use eem_material::tabled::Tabled;
 
@@ -414,155 +413,4 @@ fn known_of<A: Arrays, C: Family>(ahead: Option<&Ahead<A>>) -> Option<&Ahead<A>>
         return None;
     }
     ahead.filter(|ahead| ahead.is_known)
-}
-
-impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
-    /// Evaluates response and tangent at a trial, and eliminates the internal variables. With a known form, mixed states and viscosities
-    /// are those that the point stores.
-    #[expect(
-        clippy::inline_always,
-        reason = "a call costs 1 % of a step of a spring"
-    )]
-    #[inline(always)]
-    fn linearize<C: Family>(
-        &mut self,
-        at: &TrialView<'_>,
-        known: Option<&Form<A>>,
-        exchange: &mut Exchange<Q>,
-    ) -> Result<(), StateError> {
-        let view = at.view;
-        self.locate_trial::<C>(&exchange.measures, at.is_start, known.is_some())?;
-        self.extend(&exchange.increments);
-        // Used in place: copies would cost a good part of the time.
-        let mut form = known.map_or_else(|| self.form::<C>(at.is_start), |form| *form);
-        if !C::IS_EXACT {
-            exchange.heat_by_increment = Numbers::<Q>::filled(0.0);
-        }
-        if self.is_thermal() && C::is_in_temperature(self.scheme) {
-            let slopes = self.change_entropy_at_rates(view.step, &exchange.increments, &mut form);
-            exchange.heat_by_increment = measures_in::<Q>(&slopes);
-        }
-        self.accept::<C>(view.per_step, &form, known.is_some())?;
-        let elastic = self.add_drag::<C>(view.per_step, &mut form);
-        let undamped = self.add_damping::<C>(&mut form);
-        let contact = self.contact_in(at.contacts);
-        self.condense::<C>(view, at.interface, &form, paths_of(contact))?;
-        if self.has_rates::<C>() {
-            self.warm_by_rates::<C>(view, &mut exchange.heat_by_increment);
-        }
-        self.answer::<C>(&form, (at, contact.is_some()), exchange);
-        self.keep::<C>(&form);
-        self.drop_damping(undamped.as_ref());
-        self.drop_drag(&elastic);
-        Ok(())
-    }
-
-    /// Writes its forces and its temperature as functions of the measures.
-    #[expect(
-        clippy::inline_always,
-        reason = "a call costs 1 % of a step of a spring"
-    )]
-    #[inline(always)]
-    pub(super) fn answer<C: Family>(
-        &self,
-        form: &Form<A>,
-        (at, is_coupled): (&TrialView<'_>, bool),
-        exchange: &mut Exchange<Q>,
-    ) {
-        exchange.heat_factor = self.condensed.heat_factor;
-        if is_coupled {
-            let row = Self::TEMPERATURE;
-            exchange.heat = if C::is_damped(self.scheme) {
-                self.condensed_row::<C>(row, &self.conducting::<C>(form), true)
-            } else {
-                self.condensed_row::<C>(row, form, true)
-            };
-            let slot = self.slots().thermal.unwrap_or_default();
-            exchange.heat.value -= at.interface.values()[slot];
-        }
-        for a in 0..A::MEASURES {
-            exchange.forces[a] = form.0[a];
-            exchange.rows[a] = self.condensed_row::<C>(a, form, is_coupled);
-        }
-        if self.has_rates::<C>() {
-            for a in 0..self.drags() {
-                exchange.drags[a] = self.drag.viscosity.0[a];
-            }
-        }
-    }
-
-    /// Evaluates the response at a trial without its tangent, unless the one stored is known to be right.
-    #[expect(
-        clippy::inline_always,
-        reason = "a call costs 1 % of a step of a spring"
-    )]
-    #[inline(always)]
-    fn respond<C: Family>(
-        &mut self,
-        at: &TrialView<'_>,
-        exchange: &Exchange<Q>,
-        is_known: bool,
-    ) -> Result<(), StateError> {
-        let per_step = at.view.per_step;
-        self.locate_trial::<C>(&exchange.measures, at.is_start, is_known)?;
-        self.extend(&exchange.increments);
-        let is_in_temperature = self.is_thermal() && C::is_in_temperature(self.scheme);
-        if at.is_start || is_in_temperature {
-            let mut form = self.form::<C>(at.is_start);
-            if !at.is_start {
-                let step = at.view.step;
-                self.change_entropy_at_rates(step, &exchange.increments, &mut form);
-            }
-            self.accept::<C>(per_step, &form, false)?;
-            self.response = form.0;
-            return Ok(());
-        }
-        if !is_known {
-            let (start, model) = (&self.start, &self.model);
-            self.response = start.response::<C>(self.scheme, model, &self.x, &self.corners);
-        }
-        let response = self.response;
-        self.accept_response::<C>(per_step, &response, is_known)
-    }
-
-    /// Books the step, recovers the new temperature and judges the step. The caloric quantities at the temperature of the
-    /// trial may be known.
-    #[expect(
-        clippy::inline_always,
-        reason = "a call costs 0.8 % of a step of a spring"
-    )]
-    #[inline(always)]
-    fn close<C: Family>(
-        &mut self,
-        at: &TrialView<'_>,
-        end: &PointEnd<Q>,
-        (next, tally): (&mut State, &mut Tally),
-        known: Option<&(Caloric<f64>, f64)>,
-    ) -> Result<(), StateError> {
-        let view = at.view;
-        let outside = (paths_of(self.contact_in(at.contacts)), at.interface);
-        let received = self.book::<C>(view, outside, next, tally);
-        let near = (self.x[A::Variables::LEN - 1], known);
-        if let Some(entropy) = self.recover_temperature::<C>(&end.measures, view, near, next)? {
-            self.book_thermostat(view, [entropy, received.entropy], next);
-        }
-        if !C::is_exact(self.scheme) {
-            return Ok(());
-        }
-        let sizes = [
-            sizes_of(end.sizes[0].as_ref(), &self.start.x0),
-            sizes_of(end.sizes[1].as_ref(), &self.x),
-        ];
-        let largest = self.largest_pull::<C>(&end.slopes);
-        let is_thorough = matches!(tally.care, Care::Thorough);
-        let of_sums = is_thorough.then(|| largest * end.way);
-        let [forces, at_end] = self.amplitude::<C>(&sizes, of_sums);
-        tally.force(forces);
-        tally.exchange(view.step * largest);
-        let energy = &mut next.energies[self.element.index()];
-        energy.add_secants(at_end, self.is_thermal());
-        let terms = [energy.magnitude + forces, energy.heat_capacity];
-        self.judge::<C>(view, outside, &sizes[1], (received, terms), tally);
-        Ok(())
-    }
 }

@@ -206,7 +206,8 @@ pub(crate) struct Exchange<Q: MeasureSet> {
     pub(super) forces: Numbers<Q>,
     /// The same as functions of the measures, with the internal variables eliminated.
     pub(super) rows: Q::Per<CondensedRow<Numbers<Q>>>,
-    /// θ* − Θ as such a function, K, if the point conducts heat to others.
+    /// Whether the point conducts heat to others; then θ* − Θ as such a function, K.
+    pub(super) is_coupled: bool,
     pub(super) heat: CondensedRow<Numbers<Q>>,
     /// `∂r_s/∂Q = −h w/θ*`.
     pub(super) heat_factor: f64,
@@ -224,6 +225,7 @@ impl<Q: MeasureSet> Exchange<Q> {
             increments: zeros,
             forces: zeros,
             rows: Q::Per::filled(CondensedRow::none()),
+            is_coupled: false,
             heat: CondensedRow::none(),
             heat_factor: 0.0,
             heat_by_increment: zeros,

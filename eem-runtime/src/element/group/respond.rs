@@ -1,6 +1,9 @@
-//! The response of the elements at a trial state, and its checks.
+//! The response of a point at a trial state, its checks, and what its element is told of it.
 
+use super::arms::measures_in;
 use super::point::{Point, temperature_in};
+use super::points::{Exchange, TrialView};
+use super::site::paths_of;
 use crate::element::conjugates::{Family, Form, check_stable};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
@@ -8,6 +11,117 @@ use crate::element::kinematics::{MeasureSet, Numbers};
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::is_positive;
+
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
+    /// Evaluates response and tangent at a trial, and eliminates the internal variables. With a known form, mixed states and viscosities
+    /// are those that the point stores.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
+    pub(super) fn linearize<C: Family>(
+        &mut self,
+        at: &TrialView<'_>,
+        known: Option<&Form<A>>,
+        exchange: &mut Exchange<Q>,
+    ) -> Result<(), StateError> {
+        let view = at.view;
+        self.locate_trial::<C>(&exchange.measures, at.is_start, known.is_some())?;
+        self.extend(&exchange.increments);
+        // Used in place: copies would cost a good part of the time.
+        let mut form = known.map_or_else(|| self.form::<C>(at.is_start), |form| *form);
+        if !C::IS_EXACT {
+            exchange.heat_by_increment = Numbers::<Q>::filled(0.0);
+        }
+        if self.is_thermal() && C::is_in_temperature(self.scheme) {
+            let slopes = self.change_entropy_at_rates(view.step, &exchange.increments, &mut form);
+            exchange.heat_by_increment = measures_in::<Q>(&slopes);
+        }
+        self.accept::<C>(view.per_step, &form, known.is_some())?;
+        let elastic = self.add_drag::<C>(view.per_step, &mut form);
+        let undamped = self.add_damping::<C>(&mut form);
+        let contact = self.contact_in(at.contacts);
+        self.condense::<C>(view, at.interface, &form, paths_of(contact))?;
+        if self.has_rates::<C>() {
+            self.warm_by_rates::<C>(view, &mut exchange.heat_by_increment);
+        }
+        self.answer::<C>(&form, (at, contact.is_some()), exchange);
+        self.keep::<C>(&form);
+        self.drop_damping(undamped.as_ref());
+        self.drop_drag(&elastic);
+        Ok(())
+    }
+
+    /// Writes its forces and its temperature as functions of the measures.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
+    pub(super) fn answer<C: Family>(
+        &self,
+        form: &Form<A>,
+        (at, is_coupled): (&TrialView<'_>, bool),
+        exchange: &mut Exchange<Q>,
+    ) {
+        exchange.heat_factor = self.condensed.heat_factor;
+        exchange.is_coupled = is_coupled;
+        if is_coupled {
+            let row = Self::TEMPERATURE;
+            exchange.heat = if C::is_damped(self.scheme) {
+                self.condensed_row::<C>(row, &self.conducting::<C>(form), true)
+            } else {
+                self.condensed_row::<C>(row, form, true)
+            };
+            let slot = self.slots().thermal.unwrap_or_default();
+            exchange.heat.value -= at.interface.values()[slot];
+        }
+        for a in 0..A::MEASURES {
+            exchange.forces[a] = form.0[a];
+            exchange.rows[a] = self.condensed_row::<C>(a, form, is_coupled);
+        }
+        if self.has_rates::<C>() {
+            for a in 0..self.drags() {
+                exchange.drags[a] = self.drag.viscosity.0[a];
+            }
+        }
+    }
+
+    /// Evaluates the response at a trial without its tangent, unless the one stored is known to be right.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
+    pub(super) fn respond<C: Family>(
+        &mut self,
+        at: &TrialView<'_>,
+        exchange: &Exchange<Q>,
+        is_known: bool,
+    ) -> Result<(), StateError> {
+        let per_step = at.view.per_step;
+        self.locate_trial::<C>(&exchange.measures, at.is_start, is_known)?;
+        self.extend(&exchange.increments);
+        let is_in_temperature = self.is_thermal() && C::is_in_temperature(self.scheme);
+        if at.is_start || is_in_temperature {
+            let mut form = self.form::<C>(at.is_start);
+            if !at.is_start {
+                let step = at.view.step;
+                self.change_entropy_at_rates(step, &exchange.increments, &mut form);
+            }
+            self.accept::<C>(per_step, &form, false)?;
+            self.response = form.0;
+            return Ok(());
+        }
+        if !is_known {
+            let (start, model) = (&self.start, &self.model);
+            self.response = start.response::<C>(self.scheme, model, &self.x, &self.corners);
+        }
+        let response = self.response;
+        self.accept_response::<C>(per_step, &response, is_known)
+    }
+}
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Takes the measures of a trial, and finds its temperature if that is not an unknown, and other values that the form of

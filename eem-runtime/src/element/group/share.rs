@@ -153,7 +153,9 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
     ) {
         let heats = share.heat.as_ref().iter().zip(self.points.as_ref());
         for (heat, point) in heats {
-            if let (Some(heat), Some((contact, own))) = (heat, contacts.of(point)) {
+            if let Some(heat) = heat
+                && let Some((contact, own)) = contacts.of(point)
+            {
                 if share.momentum.is_some() {
                     own.add_pull(contact, &self.site, &heat.pull, values);
                 }
