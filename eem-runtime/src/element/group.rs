@@ -1,16 +1,16 @@
 //! All elements of one model, stepped together.
 //!
 //! [`Group`] is the interface to the solver: one dynamic call per group and phase. `ElementGroup` implements it for schemes
-//! with one set of forces, `StageGroup` for several stages, both generic in model and kinematics; elements of
-//! explicit schemes are an [`ExplicitGroup`]. The phases of a step of an `ElementGroup` are
+//! with one set of forces, `StageGroup` for several stages; elements of explicit schemes are an [`ExplicitGroup`]. Groups know the
+//! nodes; the points, with materials and internal variables, are behind a wall (`points`). The phases of a step of an `ElementGroup` are
 //!
 //! ```text
-//! begin      take over the old state, once                           (begin)
-//! evaluate   response at the trial                                  (evaluate, respond, pose, arms)
-//!            local unknowns eliminated                              (local, eliminate)
-//!            contributions added at their matrix indices            (share, site)
-//! correct    local unknowns from the global solution                (correct, point)
-//! close      impulses, what is booked, and the new state            (closing, recovery, certify)
+//!            elements and their nodes          points
+//! begin      begin, arms                       begin                      take over the old state
+//! evaluate   evaluate, placed, arms            respond, local, eliminate  response at the trial, local unknowns eliminated
+//!            share, pose, site                                            contributions added at their matrix indices
+//! correct    correct                           correct, point             local unknowns from the global solution
+//! close      closing                           closing, recovery, certify impulses, what is booked, and the new state
 //! ```
 
 mod ahead;
