@@ -32,7 +32,7 @@ use crate::element::layout::{Layout, Shape};
 use crate::element::lineage::{Counts, Lineage};
 use crate::element::masses::Masses;
 use crate::scene::error::SceneError;
-use crate::scene::loads::Loads;
+use crate::scene::loads::SceneLoads;
 use eem_material::free_energy::FreeEnergy;
 use entry::{ElementEntry, NodeEntry};
 
@@ -65,7 +65,7 @@ pub struct Scene<const D: usize> {
     pub(crate) reservoirs: Vec<f64>,
     pub(crate) conductors: Vec<Conductor>,
     pub(crate) groups: Vec<Box<dyn Loose<D>>>,
-    pub(crate) loads: Loads<D>,
+    pub(crate) loads: SceneLoads,
     /// The time at which a run begins, s.
     pub(crate) start: f64,
     pub(crate) memory_limit: MemoryLimit,
@@ -86,7 +86,7 @@ impl<const D: usize> Default for Scene<D> {
             reservoirs: Vec::new(),
             conductors: Vec::new(),
             groups: Vec::new(),
-            loads: Loads::none(),
+            loads: SceneLoads::none(D),
             start: 0.0,
             memory_limit: MemoryLimit::NONE,
             errors: Vec::new(),

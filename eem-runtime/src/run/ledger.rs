@@ -89,10 +89,10 @@ impl<const D: usize> Ledger<D> {
         masses: &Masses,
         groups: &mut dyn Iterator<Item = &dyn Elements<D>>,
         reservoirs: &[f64],
-        gravity: &SVector<f64, D>,
+        gravity: &[f64],
     ) -> Self {
         let kinetic_energy = kinetic_energy(D, state, masses);
-        let potential_energy = potential_energy(state, masses, gravity.as_slice());
+        let potential_energy = potential_energy(state, masses, gravity);
         let mut totals = ElementTotals::new();
         for group in groups {
             group.add_totals(state, &mut totals);

@@ -47,7 +47,7 @@ use crate::run::gradient::history::Watch;
 use crate::run::gradient::snapshots::Record;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
-use crate::scene::loads::Loads;
+use crate::scene::loads::SceneLoads;
 use crate::scene::refused::RefusedScene;
 use crate::step::control::{LeastScales, Tolerance, length};
 use crate::step::error::{StepError, StepFailure};
@@ -86,7 +86,7 @@ pub struct Simulation<const D: usize> {
     shapes: Vec<Shape>,
     layout: Layout,
     conduction: Conduction,
-    loads: Loads<D>,
+    loads: SceneLoads,
     /// Whether there are loads, thermostats or ovens.
     has_loads: bool,
     stepper: Stepper<D>,
@@ -219,10 +219,10 @@ impl<const D: usize> Simulation<D> {
             scene.groups = groups;
             errors
         })?;
-        let loads = mem::replace(&mut scene.loads, Loads::none());
+        let loads = mem::replace(&mut scene.loads, SceneLoads::none(D));
         layout.forget_places();
         let moved = loads.moved_in_time();
-        let gravity = length(loads.gravity.as_slice());
+        let gravity = length(&loads.gravity);
         let before = (&*state, gravity, &moved[..]);
         let least = LeastScales::new(stepper.all(), (&masses, &conduction), before);
         let next = match next {

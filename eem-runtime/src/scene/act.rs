@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use nalgebra::SVector;
-
 use super::Scene;
 use super::entry::infinite;
 use crate::element::handle::{Element, Node};
@@ -11,7 +9,7 @@ use crate::element::kinematics::Shape;
 use crate::element::loads::PushLine;
 use crate::scene::bulk::Body;
 use crate::scene::error::{RocketError, SceneError};
-use crate::scene::loads::{Course, Rocket};
+use crate::scene::loads::{Course, OfTime, Rocket};
 use crate::scene::solid_error::SolidError;
 use eem_material::number::scalar::is_positive;
 use eem_mesh::Face;
@@ -21,7 +19,7 @@ impl<const D: usize> Scene<D> {
     /// Gravity: the acceleration of all masses, m/s²; zero by default. Its potential energy `−Σ m g·q` is part of
     /// the ledger.
     pub fn set_gravity(&mut self, gravity: [f64; D]) {
-        self.loads.gravity = gravity.into();
+        self.loads.gravity = Box::new(gravity);
     }
 
     /// A constant force on a mass, N. The ledger counts its work.
@@ -29,8 +27,8 @@ impl<const D: usize> Scene<D> {
         if let Some((axis, value)) = infinite(&force).next() {
             self.refuse(SceneError::DeadLoad { node, axis, value });
         } else if self.expect_kind(node, true, "a force") {
-            let force = Course::Constant(force.into());
-            self.loads.forces.push((node, force));
+            let force = Box::new(force) as _;
+            self.loads.forces.push((node, Course::Constant(force)));
         }
     }
 
@@ -40,8 +38,8 @@ impl<const D: usize> Scene<D> {
     /// the times of the stages.
     pub fn force(&mut self, node: Node, force: impl Fn(f64) -> [f64; D] + Send + Sync + 'static) {
         if self.expect_kind(node, true, "a force") {
-            let force = Arc::new(move |time| SVector::from(force(time)));
-            self.loads.forces.push((node, Course::Function(force)));
+            let force = Course::Function(of_time(force));
+            self.loads.forces.push((node, force));
         }
     }
 
@@ -106,10 +104,8 @@ impl<const D: usize> Scene<D> {
         position: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
     ) {
         if self.expect_kind(anchor, false, "a prescribed motion") {
-            let position = Arc::new(move |time| SVector::from(position(time)));
-            self.loads
-                .motions
-                .push((anchor, Course::Function(position)));
+            let position = Course::Function(of_time(position));
+            self.loads.motions.push((anchor, position));
         }
     }
 
@@ -338,4 +334,9 @@ impl<const D: usize> Scene<D> {
             }
         }
     }
+}
+
+/// A function of time that writes its components.
+fn of_time<const D: usize>(of: impl Fn(f64) -> [f64; D] + Send + Sync + 'static) -> OfTime {
+    Arc::new(move |time, components| components.copy_from_slice(&of(time)))
 }

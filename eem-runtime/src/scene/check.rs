@@ -71,7 +71,7 @@ impl<const D: usize> Scene<D> {
             for (index, entry) in self.nodes.iter().enumerate() {
                 if let Some(mass) = entry.mass {
                     let (node, momentum) = (self.node_at(index), entry.start_momentum(mass));
-                    let vectors = [momentum.as_slice(), self.loads.gravity.as_slice()];
+                    let vectors = [momentum.as_slice(), &self.loads.gravity];
                     errors.extend(check_products((node, mass), vectors).err());
                 }
             }
@@ -84,7 +84,7 @@ impl<const D: usize> Scene<D> {
     }
 
     fn check_loads(&self, errors: &mut Vec<SceneError>) {
-        let gravity = infinite(self.loads.gravity.as_slice());
+        let gravity = infinite(&self.loads.gravity);
         errors.extend(gravity.map(|(axis, value)| SceneError::Gravity { axis, value }));
         let twice = |handle: &dyn core::fmt::Display, quantity| SceneError::PrescribedTwice {
             handle: handle.to_string(),

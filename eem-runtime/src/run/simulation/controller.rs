@@ -12,7 +12,6 @@ use crate::scene::entry::infinite;
 use crate::scene::error::SceneError;
 use crate::scene::loads::{Course, VectorCourse};
 use eem_material::number::scalar::is_positive;
-use nalgebra::SVector;
 
 /// # Controllers
 ///
@@ -52,7 +51,7 @@ impl<const D: usize> Simulation<D> {
             return Err(SceneError::DeadLoad { node, axis, value });
         }
         let had_none = self.loads.forces.is_empty();
-        let is_new = set(&mut self.loads.forces, node, force.into(), "force")?;
+        let is_new = set(&mut self.loads.forces, node, &force, "force")?;
         let rebuilt = self.reload(is_new && had_none);
         rebuilt.inspect_err(|_| {
             self.loads.forces.pop();
@@ -89,7 +88,7 @@ impl<const D: usize> Simulation<D> {
             let node = anchor;
             return Err(SceneError::Velocity { node, axis, value });
         }
-        let is_new = set(&mut self.loads.motions, anchor, velocity.into(), "motion")?;
+        let is_new = set(&mut self.loads.motions, anchor, &velocity, "motion")?;
         let rebuilt = self.reload(is_new);
         rebuilt.inspect_err(|_| {
             self.loads.motions.pop();
@@ -189,14 +188,8 @@ impl<const D: usize> Simulation<D> {
     /// All that controllers have set.
     pub(super) fn saved_loads(&self) -> SavedLoads {
         let mut saved = SavedLoads::default();
-        for (node, force) in set_ones(&self.loads.forces) {
-            saved.forced.push(node.index);
-            saved.forces.extend(force.iter());
-        }
-        for (node, velocity) in set_ones(&self.loads.motions) {
-            saved.moved.push(node.index);
-            saved.velocities.extend(velocity.iter());
-        }
+        (saved.forced, saved.forces) = set_ones(&self.loads.forces);
+        (saved.moved, saved.velocities) = set_ones(&self.loads.motions);
         for (element, temperature) in &self.loads.temperatures {
             if let Course::Set(temperature) = temperature {
                 saved.held.push(element.index());
@@ -223,8 +216,8 @@ impl<const D: usize> Simulation<D> {
         if !are_possible {
             return Err(RestoreError::Loads);
         }
-        set_all(&mut loads.forces, forces, &self.scene);
-        set_all(&mut loads.motions, motions, &self.scene);
+        set_all(&mut loads.forces, D, forces, &self.scene);
+        set_all(&mut loads.motions, D, motions, &self.scene);
         let mut temperatures = saved.temperatures.iter();
         for (_, own) in &mut loads.temperatures {
             if let (Course::Set(own), Some(saved)) = (own, temperatures.next()) {
@@ -240,23 +233,26 @@ impl<const D: usize> Simulation<D> {
 }
 
 /// The values that controllers have set.
-fn set_ones<const D: usize>(
-    all: &[(Node, VectorCourse<D>)],
-) -> impl Iterator<Item = (Node, &SVector<f64, D>)> {
-    all.iter().filter_map(|(node, course)| match course {
-        Course::Set(value) => Some((*node, value)),
-        Course::Function(_) | Course::Constant(_) => None,
-    })
+fn set_ones(all: &[(Node, VectorCourse)]) -> (Vec<usize>, Vec<f64>) {
+    let (mut nodes, mut values) = (Vec::new(), Vec::new());
+    for (node, course) in all {
+        if let Course::Set(value) = course {
+            nodes.push(node.index);
+            values.extend_from_slice(value);
+        }
+    }
+    (nodes, values)
 }
 
 /// Replaces the values that controllers have set.
-fn set_all<const D: usize>(
-    all: &mut Vec<(Node, VectorCourse<D>)>,
+fn set_all(
+    all: &mut Vec<(Node, VectorCourse)>,
+    dimension: usize,
     (nodes, values): (&[usize], &[f64]),
     scene: &Lineage,
 ) {
     all.retain(|(_, course)| !matches!(course, Course::Set(_)));
-    for (&index, &value) in nodes.iter().zip(values.as_chunks::<D>().0) {
+    for (&index, value) in nodes.iter().zip(values.chunks_exact(dimension)) {
         all.push((scene.node(index), Course::Set(value.into())));
     }
 }
@@ -274,17 +270,17 @@ fn are_of(
 }
 
 /// Sets the value of a node. True if the node had none before; an error if the scene gives its value.
-fn set<const D: usize>(
-    all: &mut Vec<(Node, VectorCourse<D>)>,
+fn set(
+    all: &mut Vec<(Node, VectorCourse)>,
     node: Node,
-    value: SVector<f64, D>,
+    value: &[f64],
     quantity: &'static str,
 ) -> Result<bool, SceneError> {
     match all.iter_mut().find(|(own, _)| *own == node) {
-        Some((_, Course::Set(own))) => *own = value,
+        Some((_, Course::Set(own))) => own.copy_from_slice(value),
         Some(_) => return Err(given(&node, quantity)),
         None => {
-            all.push((node, Course::Set(value)));
+            all.push((node, Course::Set(value.into())));
             return Ok(true);
         }
     }

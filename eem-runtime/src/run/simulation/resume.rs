@@ -154,7 +154,7 @@ impl<const D: usize> Simulation<D> {
             masses: digest_of_masses(&self.masses),
             conductances: digest_of_paths(&self.conduction, self.state.temperatures.len()),
             reservoirs: digest_of(&reservoirs),
-            gravity: digest_of(self.loads.gravity.as_slice()),
+            gravity: digest_of(&self.loads.gravity),
         }
     }
 
@@ -219,7 +219,11 @@ impl<const D: usize> Simulation<D> {
                     // The position depends on what controllers have set before.
                     Some(Course::Set(_)) => continue,
                     Some(Course::Function(by)) => {
-                        let by = |time: f64| by(time)[axis];
+                        let by = |time: f64| {
+                            let mut place = [0.0; D];
+                            by(time, &mut place);
+                            place[axis]
+                        };
                         (follows(&by, value, [time, begin], scale), by(time))
                     }
                     Some(Course::Constant(_)) | None => {

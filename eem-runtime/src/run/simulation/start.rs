@@ -10,7 +10,7 @@ use crate::run::ledger::Ledger;
 use crate::scene::Scene;
 use crate::scene::entry::{ElementEntry, NodeEntry};
 use crate::scene::error::{RocketError, SceneError};
-use crate::scene::loads::{Course, Loads, Written, written};
+use crate::scene::loads::{Course, SceneLoads, Written};
 use crate::scene::solid_error::SolidError;
 use crate::step::automatic::FIRST;
 use crate::step::control::Tolerance;
@@ -131,8 +131,8 @@ fn write_points<const D: usize>(
 }
 
 /// Writes the initial velocities of all motions; the errors of those that have none.
-pub(super) fn find_speeds<const D: usize>(
-    loads: &Loads<D>,
+pub(super) fn find_speeds(
+    loads: &SceneLoads,
     span: [f64; 2],
     velocities: &mut [f64],
 ) -> Vec<SceneError> {
@@ -141,8 +141,9 @@ pub(super) fn find_speeds<const D: usize>(
         let Course::Function(motion) = motion else {
             continue;
         };
-        let speeds = &mut velocities[node.index * D..][..D];
-        find_speed(&written(motion), span, speeds);
+        let dimension = loads.dimension();
+        let speeds = &mut velocities[node.index * dimension..][..dimension];
+        find_speed(&**motion, span, speeds);
         for (axis, speed) in speeds.iter().enumerate() {
             if !speed.is_finite() {
                 errors.push(SolidError::AnchorSpeed { node: *node, axis }.into());

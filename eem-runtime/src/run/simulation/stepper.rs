@@ -9,7 +9,7 @@ use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
 use crate::scene::error::SceneError;
-use crate::scene::loads::Loads;
+use crate::scene::loads::SceneLoads;
 use crate::step::error::StepFailure;
 use crate::step::explicit::{Explicit, SavedExplicit, Site};
 use crate::step::scheme::{Closing, Scheme};
@@ -235,7 +235,7 @@ impl<const D: usize> Newton<D> {
     /// Evaluates the loads of the step from `time` by `step`, from the old state.
     pub(super) fn evaluate_loads(
         &mut self,
-        loads: &Loads<D>,
+        loads: &SceneLoads,
         masses: &Masses,
         scheme: Scheme,
         [time, step]: [f64; 2],

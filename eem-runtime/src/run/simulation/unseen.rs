@@ -3,7 +3,7 @@
 use super::Simulation;
 use super::memory::Control;
 use crate::element::conjugates::end_weight;
-use crate::scene::loads::{Loads, ScalarOfTime, Written, inside, written, written_scalar};
+use crate::scene::loads::{SceneLoads, ScalarOfTime, Written, inside, written_scalar};
 use crate::step::control::{Controller, LeastScales, Scales};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::load_rule::LoadRule;
@@ -135,14 +135,11 @@ struct Lookout<'a> {
 
 impl Lookout<'_> {
     /// The first load that the step passes over.
-    fn first<const D: usize>(
-        &mut self,
-        loads: &Loads<D>,
-    ) -> Result<Option<TimedLoad>, StepFailure> {
+    fn first(&mut self, loads: &SceneLoads) -> Result<Option<TimedLoad>, StepFailure> {
         for (node, course) in &loads.forces {
             let load = TimedLoad::Force(*node);
             if let Some(of) = course.function()
-                && self.passes_over(load, &written(of))?
+                && self.passes_over(load, &**of)?
             {
                 return Ok(Some(load));
             }
@@ -156,7 +153,7 @@ impl Lookout<'_> {
         for (anchor, course) in &loads.motions {
             let load = TimedLoad::Motion(*anchor);
             if let Some(of) = course.function()
-                && self.passes_over(load, &written(of))?
+                && self.passes_over(load, &**of)?
             {
                 return Ok(Some(load));
             }

@@ -191,7 +191,7 @@ impl<const D: usize> Simulation<D> {
         passage: &Passage<D>,
         see: &mut See<'_>,
     ) {
-        let gravity = self.loads.gravity;
+        let gravity = SVector::<f64, D>::from_fn(|axis, _| self.loads.gravity[axis]);
         for (node, &sum) in passage.sums.iter().enumerate() {
             let position = position(state, node);
             for axis in 0..D {

@@ -6,7 +6,8 @@ use crate::element::handle::Element;
 use crate::run::gradient::error::GradientError;
 use crate::run::gradient::input::{Input, InputOf, Timed};
 use crate::run::simulation::Simulation;
-use crate::scene::loads::{OfTime, ScalarOfTime};
+use crate::run::gradient::input::OfTime;
+use crate::scene::loads::ScalarOfTime;
 use crate::step::adjoint::{Direction, HeatChange, PerVariable, Tangents};
 use nalgebra::SVector;
 
