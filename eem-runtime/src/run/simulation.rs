@@ -29,18 +29,20 @@ mod halves;
 mod memory;
 pub(crate) mod start;
 mod stepper;
+mod stepping;
 mod unseen;
 pub(crate) mod warning;
 
+use core::any::Any;
 use core::sync::atomic::AtomicBool;
 use core::{fmt, mem};
 
 use crate::element::conduction::Conduction;
+use crate::element::group::Stiffness;
 use crate::element::layout::{Layout, Shape};
 use crate::element::lineage::Lineage;
 use crate::element::masses::Masses;
 use crate::element::state::State;
-use crate::run::checkpoint::SavedControl;
 #[cfg(feature = "gradients")]
 use crate::run::gradient::history::Watch;
 #[cfg(feature = "gradients")]
@@ -60,6 +62,7 @@ use crate::step::timed::TimedLoad;
 use memory::{Automatic, Control, Unresolved};
 use start::{Needs, check_step, check_tolerance, find_entropies, initial_state};
 use stepper::{Memory, Stepper};
+use stepping::Stepping;
 
 /// A run: a scene, a scheme and the present state.
 ///
@@ -73,6 +76,12 @@ use stepper::{Memory, Stepper};
 ///
 /// A step either succeeds, or returns an error and leaves everything unchanged.
 pub struct Simulation<const D: usize> {
+    run: Run,
+}
+
+/// A run in a space of any dimension: what does not call functions of the user with a [`Simulation`]. It is compiled once.
+struct Run {
+    dimension: usize,
     scene: Lineage,
     scheme: Scheme,
     /// The scheme of the present steps; it differs from `scheme` for `Scheme::Auto`.
@@ -89,7 +98,8 @@ pub struct Simulation<const D: usize> {
     loads: SceneLoads,
     /// Whether there are loads, thermostats or ovens.
     has_loads: bool,
-    stepper: Stepper<D>,
+    /// A [`Stepper`] of the dimension.
+    stepper: Box<dyn Stepping>,
     /// The least scales of errors, from the initial state.
     least: LeastScales,
     effort: Effort,
@@ -103,7 +113,7 @@ pub struct Simulation<const D: usize> {
     /// The time at which the run began, s.
     start: f64,
     /// The positions of anchors before a controller moved them for the first time, m, by node.
-    homes: Vec<(usize, [f64; D])>,
+    homes: Vec<(usize, Vec<f64>)>,
     /// The states since the call of `keep_history`; `None` without it.
     #[cfg(feature = "gradients")]
     history: Option<Box<Record>>,
@@ -135,9 +145,9 @@ enum Tried {
 impl<const D: usize> fmt::Debug for Simulation<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Simulation")
-            .field("scheme", &self.scheme)
-            .field("step", &self.step)
-            .field("state", &self.state)
+            .field("scheme", &self.run.scheme)
+            .field("step", &self.run.step)
+            .field("state", &self.run.state)
             .finish_non_exhaustive()
     }
 }
@@ -165,11 +175,7 @@ impl<const D: usize> Simulation<D> {
             Ok(run) => run,
             Err(errors) => return Err(RefusedScene::new(scene, errors)),
         };
-        if let Some(tolerance) = &tolerance {
-            run.find_first_step(tolerance);
-        }
-        let default = (scheme == Scheme::Auto).then(Tolerance::default);
-        run.set_control(tolerance.or(default).map(SavedControl::new));
+        run.run.begin_control(tolerance);
         Ok(run)
     }
 
@@ -193,9 +199,18 @@ impl<const D: usize> Simulation<D> {
         };
         let begin = |old| initial_state(scene, &layout, Some(step), old);
         let (effort, memory, mut state, next);
-        slot.take_if(|used| !used.fits(scene, in_use, (&masses, &conduction), parts));
-        if let Some(used) = slot.take()
-            && let Stepper::Newton(newton) = used.stepper
+        slot.take_if(|used| {
+            !used.run.fits(
+                (&scene.elements, &scene.loads),
+                in_use,
+                (&masses, &conduction),
+                parts,
+            )
+        });
+        if let Some(Self { run: used }) = slot.take()
+            && let stepper = used.stepper as Box<dyn Any>
+            && let Ok(stepper) = stepper.downcast()
+            && let Stepper::Newton(newton) = *stepper
         {
             (effort, memory) = (used.effort.renewed(), Memory::Used(newton));
             (state, next) = (begin(Some(used.state))?, Some(used.next));
@@ -224,7 +239,10 @@ impl<const D: usize> Simulation<D> {
         let moved = loads.moved_in_time();
         let gravity = length(&loads.gravity);
         let before = (&*state, gravity, &moved[..]);
-        let least = LeastScales::new(stepper.all(), (&masses, &conduction), before);
+        let elements = |state: &State, see: &mut dyn FnMut(Stiffness<'_>)| {
+            stepper.stiffness(state, &mut |_, point| see(point));
+        };
+        let least = LeastScales::new(&elements, (&masses, &conduction), before);
         let next = match next {
             None => state.clone(),
             Some(mut next) => {
@@ -232,7 +250,8 @@ impl<const D: usize> Simulation<D> {
                 next
             }
         };
-        Ok(slot.insert(Self {
+        let run = Run {
+            dimension: D,
             scene: scene.lineage.clone(),
             scheme,
             in_use,
@@ -246,7 +265,7 @@ impl<const D: usize> Simulation<D> {
             has_loads: !loads.are_none(),
             loads,
             least,
-            stepper,
+            stepper: Box::new(stepper),
             effort,
             control: None,
             next,
@@ -263,9 +282,12 @@ impl<const D: usize> Simulation<D> {
             corrections: Corrections::none(),
             unresolved: Unresolved::none(),
             report: StepReport::none(),
-        }))
+        };
+        Ok(slot.insert(Self { run }))
     }
+}
 
+impl Run {
     /// The error of a step of this size, with the iterations so far.
     #[cold]
     fn failed(&self, size: f64, failure: StepFailure) -> StepError {

@@ -219,7 +219,11 @@ impl StepLoads {
                 }
                 for (axis, sum) in sums.iter_mut().enumerate() {
                     // No displacement at the start.
-                    let place = if moves { position[axis] - from[axis] } else { 0.0 };
+                    let place = if moves {
+                        position[axis] - from[axis]
+                    } else {
+                        0.0
+                    };
                     if !place.is_finite() {
                         let (load, value) = (TimedLoad::Motion(*node), place + from[axis]);
                         return Err(StepFailure::of_load(load, axis, value, at));

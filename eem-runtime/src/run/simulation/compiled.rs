@@ -7,18 +7,16 @@
 
 use super::event::Event;
 use super::stepper::Stepper;
-use super::{Simulation, Stepped};
+use super::{Run, Simulation, Stepped};
 use crate::algebra::indices;
-use crate::algebra::memory::TooLarge;
 use crate::element::conduction::Conduction;
 #[cfg(not(test))]
 use crate::element::group::springs::of_dimension;
 use crate::element::layout::Shape;
 use crate::element::masses::Masses;
-use crate::run::checkpoint::{Checkpoint, RestoreError};
-use crate::run::ledger::Ledger;
 use crate::scene::Scene;
-use crate::scene::error::SceneError;
+use crate::scene::entry::ElementEntry;
+use crate::scene::loads::SceneLoads;
 use crate::scene::refused::RefusedScene;
 use crate::step::control::Tolerance;
 use crate::step::error::StepError;
@@ -137,16 +135,14 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn step(&mut self) -> Result<StepReport, StepError> {
-        self.advance(Aim::Towards(f64::INFINITY))?;
-        Ok(self.report)
+        self.run.advance(Aim::Towards(f64::INFINITY))?;
+        Ok(self.run.report)
     }
+}
 
-    /// Makes one step, whose report is in the simulation.
+impl Run {
+    /// Makes one step, whose report is in the run.
     pub(super) fn advance(&mut self, aim: Aim) -> Stepped {
-        (Functions::get().advance)(self, aim)
-    }
-
-    fn advance_here(&mut self, aim: Aim) -> Stepped {
         self.begin_meters();
         let made = match aim {
             Aim::Towards(end) | Aim::InSchemeTowards(end) if self.control.is_none() => {
@@ -179,14 +175,7 @@ type New<const D: usize> = fn(
 /// The functions in which the work of a simulation starts.
 pub(super) struct Functions<const D: usize> {
     new: New<D>,
-    advance: fn(&mut Simulation<D>, Aim) -> Stepped,
     pub(super) end_at_event: EndAtEvent<D>,
-    pub(super) undo: fn(&mut Simulation<D>),
-    pub(super) checkpoint: fn(&Simulation<D>) -> Checkpoint,
-    pub(super) restore: fn(&mut Simulation<D>, &Checkpoint) -> Result<(), RestoreError>,
-    pub(super) change_scheme: fn(&mut Simulation<D>, Scheme) -> Result<(), SceneError>,
-    pub(super) use_scheme: fn(&mut Simulation<D>, Scheme) -> Result<(), TooLarge>,
-    pub(super) ledger: fn(&Simulation<D>) -> Ledger<D>,
 }
 
 /// Not for the unit tests of this crate, which run no simulation: everything behind a `static` is compiled, in 50 s.
@@ -201,14 +190,7 @@ impl<const D: usize> Functions<D> {
     /// Compiled where they are used.
     const HERE: Self = Self {
         new: Simulation::begin,
-        advance: Simulation::advance_here,
         end_at_event: Simulation::end_at_event,
-        undo: Simulation::undo_here,
-        checkpoint: Simulation::checkpoint_here,
-        restore: Simulation::restore_here,
-        change_scheme: Simulation::change_scheme,
-        use_scheme: Simulation::use_scheme_here,
-        ledger: Simulation::ledger_here,
     };
 
     /// The table of this crate if it has one. A branch that a constant rules out is not compiled.
@@ -225,26 +207,28 @@ impl<const D: usize> Functions<D> {
 impl<const D: usize> Simulation<D> {
     /// Whether another run can begin in the memory of this one: its scene is small and has neither solids nor loads but gravity.
     pub(crate) fn is_reusable(&self) -> bool {
-        let Stepper::Newton(newton) = &self.stepper else {
+        let Stepper::Newton(newton) = self.stepper() else {
             return false;
         };
-        let is_small = newton.solver.is_renewable() && !self.masses.are_coupled();
-        is_small && self.loads.are_at_most_weight()
+        let is_small = newton.solver.is_renewable() && !self.run.masses.are_coupled();
+        is_small && self.run.loads.are_at_most_weight()
     }
+}
 
+impl Run {
     /// Whether a scene with these masses and paths of heat, and places and shapes of elements, stepped by this scheme, differs from that
     /// of this run in numbers only.
     pub(super) fn fits(
         &self,
-        scene: &Scene<D>,
+        (elements, loads): (&[ElementEntry], &SceneLoads),
         scheme: Scheme,
         (masses, conduction): (&Masses, &Conduction),
         (places, shapes): (&[[u32; 2]], &[Shape]),
     ) -> bool {
         let are_alike = scheme == self.in_use
-            && scene.pairs.is_empty()
-            && scene.loads.are_at_most_weight()
-            && scene.loads.have_weight() == self.loads.have_weight()
+            && !masses.are_coupled()
+            && loads.are_at_most_weight()
+            && loads.have_weight() == self.loads.have_weight()
             && masses.anchors().eq(self.masses.anchors())
             && masses.len() == self.masses.len()
             && (places, shapes) == (&self.places, &self.shapes)
@@ -252,9 +236,8 @@ impl<const D: usize> Simulation<D> {
         if !are_alike {
             return false;
         }
-        for (&place, entry) in places.iter().zip(&scene.elements) {
-            let [group, place] = indices(place);
-            if !are_same(self.stepper.elements(group).nodes(place), &entry.nodes) {
+        for (&place, entry) in places.iter().zip(elements) {
+            if !are_same(self.stepper.nodes(indices(place)), &entry.nodes) {
                 return false;
             }
         }

@@ -1,11 +1,9 @@
 //! Loads that are set in the middle of a run.
 
-use super::Simulation;
-use super::stepper::Stepper;
+use super::{Run, Simulation};
 use crate::element::error::StateError;
 use crate::element::handle::{Element, Node};
 use crate::element::lineage::Lineage;
-use crate::element::loads::point;
 use crate::element::masses::Masses;
 use crate::run::checkpoint::{RestoreError, SavedLoads};
 use crate::scene::entry::infinite;
@@ -46,15 +44,15 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn set_force(&mut self, node: Node, force: [f64; D]) -> Result<(), SceneError> {
-        self.expect_mass(node, true, "a force")?;
+        self.run.expect_mass(node, true, "a force")?;
         if let Some((axis, value)) = infinite(&force).next() {
             return Err(SceneError::DeadLoad { node, axis, value });
         }
-        let had_none = self.loads.forces.is_empty();
-        let is_new = set(&mut self.loads.forces, node, &force, "force")?;
-        let rebuilt = self.reload(is_new && had_none);
+        let had_none = self.run.loads.forces.is_empty();
+        let is_new = set(&mut self.run.loads.forces, node, &force, "force")?;
+        let rebuilt = self.run.reload(is_new && had_none);
         rebuilt.inspect_err(|_| {
-            self.loads.forces.pop();
+            self.run.loads.forces.pop();
         })
     }
 
@@ -83,26 +81,18 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn set_motion(&mut self, anchor: Node, velocity: [f64; D]) -> Result<(), SceneError> {
-        self.expect_mass(anchor, false, "a prescribed motion")?;
+        self.run.expect_mass(anchor, false, "a prescribed motion")?;
         if let Some((axis, value)) = infinite(&velocity).next() {
             let node = anchor;
             return Err(SceneError::Velocity { node, axis, value });
         }
-        let is_new = set(&mut self.loads.motions, anchor, &velocity, "motion")?;
-        let rebuilt = self.reload(is_new);
+        let is_new = set(&mut self.run.loads.motions, anchor, &velocity, "motion")?;
+        let rebuilt = self.run.reload(is_new);
         rebuilt.inspect_err(|_| {
-            self.loads.motions.pop();
+            self.run.loads.motions.pop();
         })?;
-        self.note_home(anchor.index);
+        self.run.note_home(anchor.index);
         Ok(())
-    }
-
-    /// Remembers where an anchor is before it is moved for the first time.
-    fn note_home(&mut self, anchor: usize) {
-        if self.homes.iter().all(|&(own, _)| own != anchor) {
-            let home = point(self.state.positions.values(), anchor);
-            self.homes.push((anchor, home));
-        }
     }
 
     /// Sets the temperature that an element with a thermostat reaches at the end of the next step, K, linearly in time; it
@@ -137,19 +127,29 @@ impl<const D: usize> Simulation<D> {
         element: Element,
         temperature: f64,
     ) -> Result<(), SceneError> {
-        self.thermal_slot(element)?;
+        self.run.thermal_slot(element)?;
         if !is_positive(temperature) {
             let value = temperature;
             return Err(StateError::Temperature { element, value }.into());
         }
-        let mut all = self.loads.temperatures.iter_mut();
+        let mut all = self.run.loads.temperatures.iter_mut();
         match all.find(|(own, _)| *own == element) {
             Some((_, Course::Set(own))) => *own = temperature,
             Some(_) => return Err(given(&element, "temperature")),
             None => return Err(SceneError::NoThermostat { element }),
         }
-        self.forget_loads();
+        self.run.forget_loads();
         Ok(())
+    }
+}
+
+impl Run {
+    /// Remembers where an anchor is before it is moved for the first time.
+    fn note_home(&mut self, anchor: usize) {
+        if self.homes.iter().all(|&(own, _)| own != anchor) {
+            let own = &self.state.positions.values()[anchor * self.dimension..];
+            self.homes.push((anchor, own[..self.dimension].to_vec()));
+        }
     }
 
     /// An error unless a node is of this scene, and a mass or an anchor as required.
@@ -177,12 +177,7 @@ impl<const D: usize> Simulation<D> {
     /// Makes the next step evaluate its initial loads instead of taking those at the end of the last step.
     pub(super) fn forget_loads(&mut self) {
         self.has_loads = !self.loads.are_none();
-        if let Stepper::Explicit(explicit) = &mut self.stepper {
-            explicit.forget();
-            // As after a restart.
-            let state = &mut self.state;
-            self.stepper.each_mut(|group| group.find_energies(state));
-        }
+        self.stepper.forget(&mut self.state);
     }
 
     /// All that controllers have set.
@@ -210,14 +205,14 @@ impl<const D: usize> Simulation<D> {
         }
         let forces = (&saved.forced[..], &saved.forces[..]);
         let motions = (&saved.moved[..], &saved.velocities[..]);
-        let are_possible = are_of(&self.masses, true, D, forces)
-            && are_of(&self.masses, false, D, motions)
+        let are_possible = are_of(&self.masses, true, self.dimension, forces)
+            && are_of(&self.masses, false, self.dimension, motions)
             && saved.temperatures.iter().all(|&theta| is_positive(theta));
         if !are_possible {
             return Err(RestoreError::Loads);
         }
-        set_all(&mut loads.forces, D, forces, &self.scene);
-        set_all(&mut loads.motions, D, motions, &self.scene);
+        set_all(&mut loads.forces, self.dimension, forces, &self.scene);
+        set_all(&mut loads.motions, self.dimension, motions, &self.scene);
         let mut temperatures = saved.temperatures.iter();
         for (_, own) in &mut loads.temperatures {
             if let (Course::Set(own), Some(saved)) = (own, temperatures.next()) {

@@ -1,7 +1,7 @@
 //! The rules for the scheme and the step of a run, and the initial state of its scene.
 
 use crate::algebra::vector;
-use crate::element::group::Elements;
+use crate::element::group::{ElementTotals, Elements};
 use crate::element::handle::{Element, Node};
 use crate::element::layout::Layout;
 use crate::element::meters::Meters;
@@ -180,9 +180,12 @@ pub(super) fn find_entropies<const D: usize>(
     }
     if errors.is_empty() {
         let (reservoirs, gravity) = (&site.conduction.reservoirs, &site.loads.gravity);
-        let mut groups = elements.iter().map(|group| &**group);
-        let ledger = Ledger::of(state, site.masses, &mut groups, reservoirs, gravity);
-        let infinite = ledger.infinite_entry();
+        let mut totals = ElementTotals::new();
+        for group in elements {
+            group.add_totals(state, &mut totals);
+        }
+        let ledger = Ledger::of(state, site.masses, &totals, reservoirs, gravity);
+        let infinite = ledger.infinite_entry(state, D);
         errors.extend(infinite.map(|(quantity, value, unit)| SceneError::Total {
             quantity,
             value,

@@ -76,12 +76,7 @@ impl LoadRounding {
     }
 
     /// Finds it for a step of the size `span[1]` from the time `span[0]`.
-    pub(crate) fn find(
-        &mut self,
-        loads: &SceneLoads,
-        least: &LeastScales,
-        span: [f64; 2],
-    ) {
+    pub(crate) fn find(&mut self, loads: &SceneLoads, least: &LeastScales, span: [f64; 2]) {
         let [start, h] = span;
         let time = TIMES * f64::EPSILON * Scalar::maximum(start.abs(), (start + h).abs());
         let rounding = ROUNDINGS * f64::EPSILON;

@@ -51,7 +51,7 @@ impl<const D: usize> Simulation<D> {
         events: &mut [Event<'_, D>],
     ) -> Result<RunEnd, StepError> {
         if events.is_empty() {
-            self.expect_finite(end)?;
+            self.run.expect_finite(end)?;
         }
         self.run_until_event_with(end, events, |_, _| ControlFlow::Continue(()))
     }
@@ -90,18 +90,18 @@ impl<const D: usize> Simulation<D> {
             event.has_happened = false;
         }
         if !(self.time() <= end) {
-            return Err(self.refused(StepFailure::End { end }));
+            return Err(self.run.refused(StepFailure::End { end }));
         }
         self.begin_search(events)?;
-        while self.is_before(end) {
-            let before = (!events.is_empty()).then(|| self.history());
-            self.advance(Aim::Towards(end))?;
+        while self.run.is_before(end) {
+            let before = (!events.is_empty()).then(|| self.run.history());
+            self.run.advance(Aim::Towards(end))?;
             if let Some(before) = before {
-                let restore = |run: &mut Self| run.restore_history(&before);
+                let restore = |run: &mut Self| run.run.restore_history(&before);
                 let locate = Functions::get().end_at_event;
                 or_restore(self, restore, |run| locate(run, events, end))?;
             }
-            let report = self.report;
+            let report = self.run.report;
             let stopped = observer(self, &report).is_break();
             if let Some(first) = events.iter().position(Event::has_happened) {
                 return Ok(RunEnd::Event(first));
@@ -118,13 +118,13 @@ impl<const D: usize> Simulation<D> {
         for (event, place) in events.iter_mut().zip(0..) {
             let value = event.tolerance;
             if value.is_nan() || value < 0.0 {
-                return Err(self.refused(StepFailure::EventTolerance {
+                return Err(self.run.refused(StepFailure::EventTolerance {
                     event: place,
                     value,
                 }));
             }
             let before = event.value(place, self);
-            event.before = before.map_err(|failure| self.refused(failure))?;
+            event.before = before.map_err(|failure| self.run.refused(failure))?;
         }
         Ok(())
     }
@@ -140,7 +140,7 @@ impl<const D: usize> Simulation<D> {
             // An earlier event of the list may have shortened the step.
             let event = &mut events[place];
             event.after = self.value(event, place)?;
-            let whole = self.report.step;
+            let whole = self.run.report.step;
             let Some(bracket) = event.bracket(whole) else {
                 continue;
             };
@@ -153,7 +153,7 @@ impl<const D: usize> Simulation<D> {
             if is_located {
                 event.after = self.value(event, place)?;
             }
-            event.has_happened = event.bracket(self.report.step).is_some();
+            event.has_happened = event.bracket(self.run.report.step).is_some();
             event.before = event.after;
         }
         Ok(())
@@ -173,10 +173,10 @@ impl<const D: usize> Simulation<D> {
             StepFailure::EventFunction { .. } | StepFailure::EventError { .. }
         );
         let middle = self.time() + 0.5 * whole;
-        if self.control.is_none() || is_of_event || !self.is_before(middle) {
+        if self.run.control.is_none() || is_of_event || !self.run.is_before(middle) {
             return Err(error);
         }
-        self.advance(Aim::InSchemeTowards(middle))?;
+        self.run.advance(Aim::InSchemeTowards(middle))?;
         self.end_at_event(events, end)
     }
 
@@ -187,14 +187,14 @@ impl<const D: usize> Simulation<D> {
         end: f64,
         (event, place): (&mut Event<'_, D>, usize),
     ) -> Stepped {
-        let whole = self.report;
+        let whole = self.run.report;
         let scale = whole.time.abs() + whole.step;
         let sharpest = SHARPEST * f64::EPSILON * scale;
         let resolution = Scalar::maximum(event.tolerance, sharpest);
         let (mut is_behind, mut is_shorter) = (true, false);
         while let Some(size) = bracket.candidate(resolution) {
-            self.undo();
-            self.advance(Aim::Again(size))?;
+            self.run.undo();
+            self.run.advance(Aim::Again(size))?;
             let value = self.value(event, place)?;
             is_behind = bracket.narrow(size, value);
             is_shorter |= is_behind;
@@ -202,22 +202,22 @@ impl<const D: usize> Simulation<D> {
         if is_behind {
             return Ok(());
         }
-        self.undo();
+        self.run.undo();
         if is_shorter {
-            return self.advance(Aim::Again(bracket.high));
+            return self.run.advance(Aim::Again(bracket.high));
         }
-        self.advance(Aim::Again(whole.step))?;
+        self.run.advance(Aim::Again(whole.step))?;
         #[expect(clippy::float_cmp, reason = "whether the step ended there")]
         if whole.time == end {
-            self.arrive_at(end);
+            self.run.arrive_at(end);
         }
         Ok(())
     }
 
     /// The function of an event at the present state. If it fails, the last step is undone.
     fn value(&mut self, event: &mut Event<'_, D>, place: usize) -> Result<f64, StepError> {
-        let value = or_restore(self, Self::undo, |run| event.value(place, run));
-        value.map_err(|failure| self.failed(self.step, failure))
+        let value = or_restore(self, |run| run.run.undo(), |run| event.value(place, run));
+        value.map_err(|failure| self.run.failed(self.run.step, failure))
     }
 }
 
