@@ -102,7 +102,7 @@ impl Run {
     }
 
     /// Writes the next state.
-    #[inline(never)]
+    #[inline]
     fn find_next(&mut self, size: f64, demand: Demand) -> Result<Attempt, StepFailure> {
         self.has_stepped = false;
         self.effort.restart();
