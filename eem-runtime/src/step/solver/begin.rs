@@ -162,12 +162,24 @@ impl<const D: usize> Solver<D> {
 
     #[inline(never)]
     fn couple_sets(&mut self, view: &StepView<'_>) {
-        let (inertia, moving) = (self.inertias(view), self.moving());
-        let (values, right) = self.tangent.parts();
-        for (set, nodes) in self.nodes.chunks(moving).enumerate() {
-            let nodes = (nodes, &self.trial);
-            self.coupling
-                .balance(set, nodes, inertia[set], values, right);
+        let inertias = self.inertias(view);
+        for (set, &inertia) in inertias.iter().enumerate().take(self.sets.len()) {
+            self.find_factors(set);
+            let first = self.nodes_of_set(set).first().map_or(0, Balance::row);
+            let (values, right) = self.tangent.parts();
+            let right = &mut right.as_flattened_mut()[first..];
+            self.coupling.balance(set, inertia, values, right);
+        }
+    }
+
+    /// Prepares the impulses of the displacements beyond flight in a set, where masses couple nodes.
+    pub(super) fn find_factors(&mut self, set: usize) {
+        let nodes = &self.nodes[self.range_of_set(set)];
+        let factors = self.coupling.factors.as_chunks_mut::<D>().0;
+        for (node, factors) in nodes.iter().zip(factors.chunks_exact_mut(2)) {
+            let [moved, _] = node.moved(&self.trial);
+            factors[0] = node.change(&self.trial);
+            factors[1] = vector(|axis| moved[axis].abs());
         }
     }
 

@@ -30,8 +30,8 @@ impl<const D: usize> Solver<D> {
         let mut largest = Largest::default();
         self.past.remember();
         if !self.coupling.is_none() {
-            let nodes = (self.nodes.as_slice(), &self.trial);
-            self.coupling.find_impulses(0, nodes, twice_per_step);
+            self.find_factors(0);
+            self.coupling.find_impulses(Some(0), twice_per_step);
         }
         for (moving, node) in self.nodes.iter().enumerate() {
             let at = node.node;
@@ -75,7 +75,7 @@ impl<const D: usize> Solver<D> {
     fn book_work(&self, view: &StepView<'_>, next: &mut State) {
         for node in &self.nodes {
             let at = node.node;
-            let force = self.rockets.add_to(view.loads.force(at), [0, at]);
+            let force: [f64; D] = self.rockets.add_to(view.loads.force(at), [0, at]);
             for (force, &displacement) in force.into_iter().zip(&self.trial.displacements[at]) {
                 if force != 0.0 {
                     next.work.add(force * displacement);
