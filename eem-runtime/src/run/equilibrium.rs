@@ -19,6 +19,7 @@ use crate::run::simulation::start::initial_state;
 use crate::scene::Scene;
 use crate::scene::entry::{self, ElementEntry};
 use crate::scene::error::SceneError;
+use crate::scene::plan::{Entries, Groups, Plan};
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Solver;
@@ -225,23 +226,23 @@ impl<const D: usize> Scene<D> {
         settings: Equilibrium,
     ) -> Result<EquilibriumReport, EquilibriumError> {
         settings.check()?;
-        let errors = self.check();
+        let errors = self.plan.check(&self.groups);
         if !errors.is_empty() {
             return Err(EquilibriumError::Scene { errors });
         }
         // Temperatures are no unknowns.
-        let masses = self.masses();
-        let elements = (&self.places()[..], &self.shapes()[..]);
+        let masses = self.plan.masses();
+        let elements = (&self.plan.places()[..], &self.shapes()[..]);
         let layout = entry::layout(D, &masses, elements);
-        let state = initial_state(self, &layout, None, None);
+        let state = initial_state(&self.plan, &layout, None, None);
         let mut state = state.map_err(|errors| EquilibriumError::Scene { errors })?;
         let heat = if settings.balances_heat {
-            heat::balance(self, &layout, &mut state.temperatures)?
+            heat::balance(&self.plan, &self.groups, &layout, &mut state.temperatures)?
         } else {
             0.0
         };
         let (next, report) = self.find_rest(settings, (&masses, &layout), &mut state)?;
-        self.take_state(&layout, &next);
+        self.plan.take_state(&self.groups, &layout, &next);
         Ok(EquilibriumReport { heat, ..report })
     }
 
@@ -253,8 +254,8 @@ impl<const D: usize> Scene<D> {
     ) -> Result<(State, EquilibriumReport), EquilibriumError> {
         let refuse = |errors: Vec<SceneError>| EquilibriumError::Scene { errors };
         let conduction = Conduction::new(&[], Vec::new(), layout);
-        let mut loads = StepLoads::new(masses.len() * D, layout, &self.loads, false);
-        let evaluated = loads.evaluate_forces_at(&self.loads, masses, self.start);
+        let mut loads = StepLoads::new(masses.len() * D, layout, &self.plan.loads, false);
+        let evaluated = loads.evaluate_forces_at(&self.plan.loads, masses, self.plan.start);
         evaluated.map_err(EquilibriumError::Start)?;
         let held = state.temperatures.iter().map(|&theta| Prescribed {
             middle: theta,
@@ -263,9 +264,15 @@ impl<const D: usize> Scene<D> {
         loads.prescribed = held.map(Some).collect();
         // The rows of this scheme are `2 m/h Δq − 2 p⁰ + h F`; at rest only h F is left.
         let scheme = Scheme::Midpoint;
-        let (ends, rockets) = (self.ends(), self.loads.rocket_lines());
+        let (ends, rockets) = (self.plan.ends(), self.plan.loads.rocket_lines());
         let elements = (&ends, layout);
-        let systems = Systems::new(scheme, elements, &conduction, &rockets, self.memory_limit);
+        let systems = Systems::new(
+            scheme,
+            elements,
+            &conduction,
+            &rockets,
+            self.plan.memory_limit,
+        );
         let systems = systems.map_err(|error| refuse(vec![error.into()]))?;
         let nodes = &ends;
         let by = Conjugates::One(OneSet::Point(PointRule::Rest));
@@ -295,12 +302,14 @@ impl<const D: usize> Scene<D> {
             stages: &[],
             masses,
         };
-        let how = (settings.newton, arms(&self.elements));
+        let how = (settings.newton, arms(&self.plan.entries.elements));
         let rest = AtRest::new(&mut solver, &mut groups, &view, how);
         let mut rest = rest.map_err(EquilibriumError::Start)?;
-        self.follow(&mut rest, settings.load_steps, state)
+        self.plan.follow(&mut rest, settings.load_steps, state)
     }
+}
 
+impl Plan {
     fn follow(
         &self,
         rest: &mut AtRest<'_>,
@@ -348,36 +357,48 @@ impl<const D: usize> Scene<D> {
     }
 
     fn name(&self, rest: &AtRest<'_>, softest: &Softest) -> FreeMotion {
-        let mut displacements = vec![0.0; self.nodes.len() * D];
-        for (&node, by) in softest.nodes.iter().zip(softest.motion.chunks_exact(D)) {
-            displacements[node * D..][..D].copy_from_slice(by);
+        let mut displacements = vec![0.0; self.entries.positions.len()];
+        for (&node, by) in softest
+            .nodes
+            .iter()
+            .zip(softest.motion.chunks_exact(self.dimension()))
+        {
+            displacements[node * self.dimension()..][..self.dimension()].copy_from_slice(by);
         }
         let moved = Moved {
-            dimension: D,
+            dimension: self.dimension(),
             positions: &rest.positions(),
             displacements: &displacements,
-            elements: &self.elements,
-            is_mass: &|node| self.nodes[node].mass.is_some(),
+            elements: &self.entries.elements,
+            is_mass: &|node| self.entries.nodes[node].mass.is_some(),
             node_at: &|node| self.node_at(node),
         };
         moved.name(softest.stiffness)
     }
 
     /// Takes over positions, temperatures and viscous stretches, at rest.
-    fn take_state(&mut self, layout: &Layout, state: &State) {
-        let positions = state.positions.values().as_chunks::<D>().0;
-        for (node, &position) in self.nodes.iter_mut().zip(positions) {
+    fn take_state(&mut self, groups: &dyn Groups, layout: &Layout, state: &State) {
+        let dimension = self.dimension();
+        let Entries {
+            nodes,
+            positions,
+            velocities,
+            elements,
+            ..
+        } = &mut self.entries;
+        for (index, node) in nodes.iter_mut().enumerate() {
             if node.mass.is_some() {
-                node.position = position.into();
-                node.velocity = [0.0; D].into();
+                let own = index * dimension..(index + 1) * dimension;
+                positions[own.clone()].copy_from_slice(&state.positions.values()[own.clone()]);
+                velocities[own].fill(0.0);
                 node.momentum = None;
             }
         }
-        for (entry, slots) in self.elements.iter_mut().zip(&layout.elements) {
+        for (entry, slots) in elements.iter_mut().zip(&layout.elements) {
             if let Some(slot) = slots.thermal {
                 entry.temperature = Some(state.temperatures[slot]);
             }
-            let dashpots = self.groups[entry.group].shape().dashpots;
+            let dashpots = groups.shape(entry.group).map_or(0, |shape| shape.dashpots);
             let viscous = &state.viscous.values()[slots.viscous..][..dashpots];
             entry.viscous_stretches = viscous.iter().copied().enumerate().collect();
         }

@@ -50,19 +50,19 @@ use crate::run::gradient::snapshots::Record;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::SceneLoads;
+use crate::scene::plan::{Entries, Plan};
 use crate::scene::refused::RefusedScene;
 use crate::step::control::{LeastScales, Tolerance, length};
 use crate::step::error::{StepError, StepFailure};
-use crate::step::explicit::Site;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
 use crate::step::timed::TimedLoad;
 use memory::{Automatic, Control, Unresolved};
-use start::{Needs, check_step, check_tolerance, find_entropies, initial_state};
-use stepper::{Memory, Stepper};
-use stepping::Stepping;
+use start::{FirstState, Needs, Outline, Used, find_entropies};
+use stepper::{Memory, Newton, Stepper};
+use stepping::{Stepping, site_of};
 
 /// A run: a scene, a scheme and the present state.
 ///
@@ -161,17 +161,16 @@ impl<const D: usize> Simulation<D> {
         scheme: Scheme,
         (step, tolerance): (f64, Option<Tolerance>),
     ) -> Result<&mut Self, RefusedScene<D>> {
-        let needs = Needs::of(&scene);
+        let shapes = scene.shapes();
+        let needs = Needs::of(&scene.plan, &scene.groups, &shapes);
         let in_use = needs.first(scheme);
-        let mut errors = scene.check();
-        errors.extend(needs.check(in_use).err());
-        errors.extend(check_step(step).err());
-        let checked = tolerance.map_or(Ok(()), |own| check_tolerance(&own, (scheme, in_use)));
-        errors.extend(checked.err());
+        let mut errors = scene.plan.check(&scene.groups);
+        needs.check_run((scheme, in_use), (step, tolerance), &mut errors);
         if !errors.is_empty() {
             return Err(RefusedScene::new(scene, errors));
         }
-        let run = match Self::take(slot, &mut scene, (scheme, in_use, needs), step) {
+        let outline = Outline::new(&scene.plan, shapes);
+        let run = match Self::take(slot, &mut scene, outline, (scheme, in_use, needs), step) {
             Ok(run) => run,
             Err(errors) => return Err(RefusedScene::new(scene, errors)),
         };
@@ -183,58 +182,84 @@ impl<const D: usize> Simulation<D> {
     fn take<'s>(
         slot: &'s mut Option<Self>,
         scene: &mut Scene<D>,
-        (scheme, in_use, needs): (Scheme, Scheme, Needs),
+        outline: Outline,
+        schemes: (Scheme, Scheme, Needs),
         step: f64,
     ) -> Result<&'s mut Self, Vec<SceneError>> {
-        let (masses, ends) = (scene.masses(), scene.ends());
-        let (places, shapes) = (scene.places(), scene.shapes());
-        let parts = (&places[..], &shapes[..]);
-        let (mut layout, conduction) = scene.numbering(&masses, parts);
-        let site = Site {
-            masses: &masses,
-            elements: &ends,
-            layout: &layout,
-            conduction: &conduction,
-            loads: &scene.loads,
+        let (_, in_use, _) = schemes;
+        slot.take_if(|used| !used.run.fits(&scene.plan, &outline, in_use));
+        let (newton, used) = slot.take().and_then(Self::into_newton).unzip();
+        let mut start = FirstState::new(&scene.plan, &outline, step, used)?;
+        let plan = &mut scene.plan;
+        let memory = match newton {
+            Some(newton) => Memory::Used(newton),
+            None => {
+                let site = site_of(outline.site(&plan.loads));
+                let systems = Memory::new(in_use, site, plan.memory_limit);
+                systems.map_err(|error| vec![error.into()])?
+            }
         };
-        let begin = |old| initial_state(scene, &layout, Some(step), old);
-        let (effort, memory, mut state, next);
-        slot.take_if(|used| {
-            !used.run.fits(
-                (&scene.elements, &scene.loads),
-                in_use,
-                (&masses, &conduction),
-                parts,
-            )
-        });
-        if let Some(Self { run: used }) = slot.take()
-            && let stepper = used.stepper as Box<dyn Any>
-            && let Ok(stepper) = stepper.downcast()
-            && let Stepper::Newton(newton) = *stepper
-        {
-            (effort, memory) = (used.effort.renewed(), Memory::Used(newton));
-            (state, next) = (begin(Some(used.state))?, Some(used.next));
-        } else {
-            (effort, state, next) = (Effort::new(), begin(None)?, None);
-            let systems = Memory::new(in_use, site, scene.memory_limit);
-            memory = systems.map_err(|error| vec![error.into()])?;
-        }
-        state.follow_velocities(D, &masses);
         let groups = mem::take(&mut scene.groups);
-        let (nodes, pairs) = (&mut scene.nodes, &mut scene.pairs);
-        let entries = &mut scene.elements;
-        let parts = (in_use, site);
-        let stepper = Stepper::new(groups, memory, parts, &mut state, &mut |state, elements| {
-            find_entropies(elements, state, site)?;
-            // The entries of the scene are large, and now contained in masses, state and groups.
-            drop((mem::take(nodes), mem::take(pairs), mem::take(entries)));
-            Ok(())
-        });
+        let parts = (in_use, site_of(outline.site(&plan.loads)));
+        let entries = &mut plan.entries;
+        let stepper = Stepper::new(
+            groups,
+            memory,
+            parts,
+            &mut start.state,
+            &mut |state, all| {
+                find_entropies(all, state, parts.1)?;
+                // The entries of the scene are large, and now contained in masses, state and groups.
+                *entries = Entries::default();
+                Ok(())
+            },
+        );
         let stepper = stepper.map_err(|(errors, groups)| {
             scene.groups = groups;
             errors
         })?;
-        let loads = mem::replace(&mut scene.loads, SceneLoads::none(D));
+        let run = Run::new(plan, (outline, start), Box::new(stepper), schemes, step);
+        Ok(slot.insert(Self { run }))
+    }
+
+    /// What another run of the same kind can use.
+    fn into_newton(self) -> Option<(Box<Newton<D>>, Used)> {
+        let used = Used {
+            effort: self.run.effort.renewed(),
+            state: self.run.state,
+            next: self.run.next,
+        };
+        match *(self.run.stepper as Box<dyn Any>).downcast().ok()? {
+            Stepper::Newton(newton) => Some((newton, used)),
+            Stepper::Explicit(_) => None,
+        }
+    }
+}
+
+impl Run {
+    /// The run of a plan, whose entries are already used.
+    fn new(
+        plan: &mut Plan,
+        (outline, start): (Outline, FirstState),
+        stepper: Box<dyn Stepping>,
+        (scheme, in_use, needs): (Scheme, Scheme, Needs),
+        step: f64,
+    ) -> Self {
+        let dimension = plan.dimension();
+        let Outline {
+            masses,
+            places,
+            shapes,
+            mut layout,
+            conduction,
+            ..
+        } = outline;
+        let FirstState {
+            effort,
+            state,
+            next,
+        } = start;
+        let loads = mem::replace(&mut plan.loads, SceneLoads::none(dimension));
         layout.forget_places();
         let moved = loads.moved_in_time();
         let gravity = length(&loads.gravity);
@@ -250,12 +275,12 @@ impl<const D: usize> Simulation<D> {
                 next
             }
         };
-        let run = Run {
-            dimension: D,
-            scene: scene.lineage.clone(),
+        Self {
+            dimension,
+            scene: plan.lineage.clone(),
             scheme,
             in_use,
-            automatic: Automatic::new(needs, scene.memory_limit),
+            automatic: Automatic::new(needs, plan.memory_limit),
             step,
             masses,
             places,
@@ -265,13 +290,13 @@ impl<const D: usize> Simulation<D> {
             has_loads: !loads.are_none(),
             loads,
             least,
-            stepper: Box::new(stepper),
+            stepper,
             effort,
             control: None,
             next,
             state,
             has_stepped: false,
-            start: scene.start,
+            start: plan.start,
             homes: Vec::new(),
             #[cfg(feature = "gradients")]
             history: None,
@@ -282,12 +307,9 @@ impl<const D: usize> Simulation<D> {
             corrections: Corrections::none(),
             unresolved: Unresolved::none(),
             report: StepReport::none(),
-        };
-        Ok(slot.insert(Self { run }))
+        }
     }
-}
 
-impl Run {
     /// The error of a step of this size, with the iterations so far.
     #[cold]
     fn failed(&self, size: f64, failure: StepFailure) -> StepError {

@@ -1,8 +1,5 @@
 //! The nodes and elements of a scene.
 
-use nalgebra::SVector;
-
-use crate::algebra::vector;
 use crate::element::ends::Ends;
 use crate::element::layout::{Layout, Shape};
 use crate::element::masses::Masses;
@@ -10,25 +7,13 @@ use eem_material::number::compact::compact;
 
 /// A node: an anchor or a mass.
 #[derive(Clone, Debug)]
-pub(crate) struct NodeEntry<const D: usize> {
+pub(crate) struct NodeEntry {
     /// `None` for an anchor.
     pub(crate) mass: Option<f64>,
     /// The mass of solids at an anchor, kg.
     pub(crate) held: f64,
-    pub(crate) position: SVector<f64, D>,
-    pub(crate) velocity: SVector<f64, D>,
     /// The initial momentum, if it is given instead of the velocity.
-    pub(crate) momentum: Option<SVector<f64, D>>,
-}
-
-impl<const D: usize> NodeEntry<D> {
-    /// The initial momentum of a node of this mass, kg m/s.
-    pub(crate) fn start_momentum(&self, mass: f64) -> SVector<f64, D> {
-        match self.momentum {
-            Some(momentum) => momentum,
-            None => vector(|axis| mass * self.velocity[axis]).into(),
-        }
-    }
+    pub(crate) momentum: Option<Box<[f64]>>,
 }
 
 /// The components of a vector that are not finite, with their axes.

@@ -6,17 +6,14 @@
 //! used.
 
 use super::event::Event;
+use super::start::Outline;
 use super::stepper::Stepper;
 use super::{Run, Simulation, Stepped};
 use crate::algebra::indices;
-use crate::element::conduction::Conduction;
 #[cfg(not(test))]
 use crate::element::group::springs::of_dimension;
-use crate::element::layout::Shape;
-use crate::element::masses::Masses;
 use crate::scene::Scene;
-use crate::scene::entry::ElementEntry;
-use crate::scene::loads::SceneLoads;
+use crate::scene::plan::Plan;
 use crate::scene::refused::RefusedScene;
 use crate::step::control::Tolerance;
 use crate::step::error::StepError;
@@ -216,27 +213,21 @@ impl<const D: usize> Simulation<D> {
 }
 
 impl Run {
-    /// Whether a scene with these masses and paths of heat, and places and shapes of elements, stepped by this scheme, differs from that
-    /// of this run in numbers only.
-    pub(super) fn fits(
-        &self,
-        (elements, loads): (&[ElementEntry], &SceneLoads),
-        scheme: Scheme,
-        (masses, conduction): (&Masses, &Conduction),
-        (places, shapes): (&[[u32; 2]], &[Shape]),
-    ) -> bool {
+    /// Whether a scene with this outline, stepped by this scheme, differs from that of this run in numbers only.
+    pub(super) fn fits(&self, scene: &Plan, outline: &Outline, scheme: Scheme) -> bool {
+        let masses = &outline.masses;
         let are_alike = scheme == self.in_use
             && !masses.are_coupled()
-            && loads.are_at_most_weight()
-            && loads.have_weight() == self.loads.have_weight()
+            && scene.loads.are_at_most_weight()
+            && scene.loads.have_weight() == self.loads.have_weight()
             && masses.anchors().eq(self.masses.anchors())
             && masses.len() == self.masses.len()
-            && (places, shapes) == (&self.places, &self.shapes)
-            && conduction.joins_like(&self.conduction);
+            && (&outline.places, &outline.shapes) == (&self.places, &self.shapes)
+            && outline.conduction.joins_like(&self.conduction);
         if !are_alike {
             return false;
         }
-        for (&place, entry) in places.iter().zip(elements) {
+        for (&place, entry) in self.places.iter().zip(&scene.entries.elements) {
             if !are_same(self.stepper.nodes(indices(place)), &entry.nodes) {
                 return false;
             }
