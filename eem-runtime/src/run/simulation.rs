@@ -37,9 +37,11 @@ use core::any::Any;
 use core::sync::atomic::AtomicBool;
 use core::{fmt, mem};
 
+use crate::algebra::indices;
 use crate::element::conduction::Conduction;
-use crate::element::group::Stiffness;
-use crate::element::layout::{Layout, Shape};
+use crate::element::group::{ElementTotals, Stiffness};
+use crate::element::handle::{Element, Handle};
+use crate::element::layout::{Layout, Shape, Slots};
 use crate::element::lineage::Lineage;
 use crate::element::masses::Masses;
 use crate::element::state::State;
@@ -47,6 +49,7 @@ use crate::element::state::State;
 use crate::run::gradient::history::Watch;
 #[cfg(feature = "gradients")]
 use crate::run::gradient::snapshots::Record;
+use crate::run::ledger::Ledger;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::SceneLoads;
@@ -191,13 +194,12 @@ impl<const D: usize> Simulation<D> {
         let (newton, used) = slot.take().and_then(Self::into_newton).unzip();
         let mut start = FirstState::new(&scene.plan, &outline, step, used)?;
         let plan = &mut scene.plan;
-        let memory = match newton {
-            Some(newton) => Memory::Used(newton),
-            None => {
-                let site = site_of(outline.site(&plan.loads));
-                let systems = Memory::new(in_use, site, plan.memory_limit);
-                systems.map_err(|error| vec![error.into()])?
-            }
+        let memory = if let Some(newton) = newton {
+            Memory::Used(newton)
+        } else {
+            let site = site_of(outline.site(&plan.loads));
+            let systems = Memory::new(in_use, site, plan.memory_limit);
+            systems.map_err(|error| vec![error.into()])?
         };
         let groups = mem::take(&mut scene.groups);
         let parts = (in_use, site_of(outline.site(&plan.loads)));
@@ -308,6 +310,64 @@ impl Run {
             unresolved: Unresolved::none(),
             report: StepReport::none(),
         }
+    }
+
+    /// The present time, s.
+    fn time(&self) -> f64 {
+        self.state.time.value
+    }
+
+    /// The ledger of a state but for its linear momentum, whatever steps led there.
+    fn ledger_in(&self, state: &State) -> Ledger<0> {
+        let mut totals = ElementTotals::new();
+        self.stepper.add_totals(state, &mut totals);
+        let (reservoirs, gravity) = (&self.conduction.reservoirs, &self.loads.gravity);
+        Ledger::of(state, &self.masses, &totals, reservoirs, gravity)
+    }
+
+    /// All elements in the order of creation: group and place, and the capabilities of the group.
+    fn all_places(&self) -> impl Iterator<Item = ([usize; 2], Shape)> {
+        let places = self.places.iter().map(|&place| indices(place));
+        places.map(|place| (place, self.shapes[place[0]]))
+    }
+
+    /// An error unless an element is a spring of this scene.
+    fn expect_spring(&self, element: Element, quantity: &'static str) -> Result<(), SceneError> {
+        self.expect_own(&element)?;
+        if self.shape(element).is_spring {
+            return Ok(());
+        }
+        Err(SceneError::NotASpring { element, quantity })
+    }
+
+    fn is_oven(&self, reservoir: usize) -> bool {
+        let mut ovens = self.loads.ovens.iter();
+        ovens.any(|&(oven, _)| oven == reservoir)
+    }
+
+    /// The capabilities of an element of this scene.
+    fn shape(&self, element: Element) -> Shape {
+        self.shapes[self.place(element)[0]]
+    }
+
+    /// The group of an element of this scene, and its index there.
+    fn place(&self, element: Element) -> [usize; 2] {
+        indices(self.places[element.index()])
+    }
+
+    /// The state indices of an element of this scene.
+    fn slots(&self, element: Element) -> Slots {
+        self.stepper.slots(self.place(element))
+    }
+
+    fn thermal_slot(&self, element: Element) -> Result<usize, SceneError> {
+        self.expect_own(&element)?;
+        let slot = self.slots(element).thermal;
+        slot.ok_or(SceneError::NotThermal { element })
+    }
+
+    fn expect_own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {
+        self.scene.expect(handle)
     }
 
     /// The error of a step of this size, with the iterations so far.

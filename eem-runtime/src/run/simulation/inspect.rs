@@ -2,16 +2,13 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::Simulation;
 use super::stepper::Stepper;
-use super::{Run, Simulation};
-use crate::algebra::indices;
 use crate::element::conduction::Partner;
-use crate::element::group::{ElementTotals, ElementView};
+use crate::element::group::ElementView;
 use crate::element::handle::{Element, Handle, Node, Reservoir, SceneId};
 use crate::element::kinematics::SolidState;
-use crate::element::layout::{Shape, Slots};
 use crate::element::loads::point;
-use crate::element::state::State;
 use crate::run::ledger::Ledger;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
@@ -444,65 +441,5 @@ impl<const D: usize> Simulation<D> {
     /// The scene from which the simulation was made.
     pub(crate) const fn scene(&self) -> SceneId {
         self.run.scene.scene()
-    }
-}
-
-impl Run {
-    /// The present time, s.
-    pub(super) fn time(&self) -> f64 {
-        self.state.time.value
-    }
-
-    /// The ledger of a state but for its linear momentum, whatever steps led there.
-    pub(super) fn ledger_in(&self, state: &State) -> Ledger<0> {
-        let mut totals = ElementTotals::new();
-        self.stepper.add_totals(state, &mut totals);
-        let (reservoirs, gravity) = (&self.conduction.reservoirs, &self.loads.gravity);
-        Ledger::of(state, &self.masses, &totals, reservoirs, gravity)
-    }
-
-    /// All elements in the order of creation: group and place, and the capabilities of the group.
-    pub(super) fn all_places(&self) -> impl Iterator<Item = ([usize; 2], Shape)> {
-        let places = self.places.iter().map(|&place| indices(place));
-        places.map(|place| (place, self.shapes[place[0]]))
-    }
-
-    /// An error unless an element is a spring of this scene.
-    fn expect_spring(&self, element: Element, quantity: &'static str) -> Result<(), SceneError> {
-        self.expect_own(&element)?;
-        if self.shape(element).is_spring {
-            return Ok(());
-        }
-        Err(SceneError::NotASpring { element, quantity })
-    }
-
-    pub(super) fn is_oven(&self, reservoir: usize) -> bool {
-        let mut ovens = self.loads.ovens.iter();
-        ovens.any(|&(oven, _)| oven == reservoir)
-    }
-
-    /// The capabilities of an element of this scene.
-    pub(super) fn shape(&self, element: Element) -> Shape {
-        self.shapes[self.place(element)[0]]
-    }
-
-    /// The group of an element of this scene, and its index there.
-    pub(super) fn place(&self, element: Element) -> [usize; 2] {
-        indices(self.places[element.index()])
-    }
-
-    /// The state indices of an element of this scene.
-    pub(super) fn slots(&self, element: Element) -> Slots {
-        self.stepper.slots(self.place(element))
-    }
-
-    pub(super) fn thermal_slot(&self, element: Element) -> Result<usize, SceneError> {
-        self.expect_own(&element)?;
-        let slot = self.slots(element).thermal;
-        slot.ok_or(SceneError::NotThermal { element })
-    }
-
-    pub(super) fn expect_own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {
-        self.scene.expect(handle)
     }
 }

@@ -73,12 +73,14 @@ pub(crate) struct AtNode {
     mass: f64,
 }
 
+/// Calls a function with each point of all elements in a state.
+type EachPoint<'a> = &'a dyn Fn(&State, &mut dyn FnMut(Stiffness<'_>));
+
 impl LeastScales {
     /// Of elements in a state with this acceleration of free fall, m/s², and these anchors, in ascending order, that are moved by
     /// functions of time.
-    /// `elements` calls a function with each point.
     pub(crate) fn new(
-        elements: &dyn Fn(&State, &mut dyn FnMut(Stiffness<'_>)),
+        elements: EachPoint<'_>,
         (masses, conduction): (&Masses, &Conduction),
         (state, gravity, moved): (&State, f64, &[usize]),
     ) -> Self {
