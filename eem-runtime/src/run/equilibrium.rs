@@ -6,11 +6,12 @@ pub(crate) mod motion;
 use crate::algebra::ascending;
 use crate::element::conduction::Conduction;
 use crate::element::conjugates::{Conjugates, OneSet, PointRule};
+use crate::element::ends::Ends;
 #[cfg(not(test))]
 use crate::element::group::springs::of_dimension;
 use crate::element::group::{Placed, StepView};
 use crate::element::handle::Node;
-use crate::element::layout::Layout;
+use crate::element::layout::{Layout, Shape};
 use crate::element::loads::{Prescribed, StepLoads};
 use crate::element::masses::Masses;
 use crate::element::phase::Phase;
@@ -226,90 +227,114 @@ impl<const D: usize> Scene<D> {
         settings: Equilibrium,
     ) -> Result<EquilibriumReport, EquilibriumError> {
         settings.check()?;
-        let errors = self.plan.check(&self.groups);
-        if !errors.is_empty() {
-            return Err(EquilibriumError::Scene { errors });
-        }
-        // Temperatures are no unknowns.
-        let masses = self.plan.masses();
-        let elements = (&self.plan.places()[..], &self.shapes()[..]);
-        let layout = entry::layout(D, &masses, elements);
-        let state = initial_state(&self.plan, &layout, None, None);
-        let mut state = state.map_err(|errors| EquilibriumError::Scene { errors })?;
-        let heat = if settings.balances_heat {
-            heat::balance(&self.plan, &self.groups, &layout, &mut state.temperatures)?
-        } else {
-            0.0
-        };
-        let (next, report) = self.find_rest(settings, (&masses, &layout), &mut state)?;
-        self.plan.take_state(&self.groups, &layout, &next);
-        Ok(EquilibriumReport { heat, ..report })
+        let shapes = self.shapes();
+        let mut problem = self.plan.problem(&self.groups, &shapes, settings)?;
+        let (next, report) = self.find_rest(settings, &mut problem)?;
+        self.plan.take_state(&self.groups, &problem.layout, &next);
+        Ok(EquilibriumReport {
+            heat: problem.heat,
+            ..report
+        })
     }
 
     fn find_rest(
         &self,
         settings: Equilibrium,
-        (masses, layout): (&Masses, &Layout),
-        state: &mut State,
+        problem: &mut Problem,
     ) -> Result<(State, EquilibriumReport), EquilibriumError> {
         let refuse = |errors: Vec<SceneError>| EquilibriumError::Scene { errors };
-        let conduction = Conduction::new(&[], Vec::new(), layout);
-        let mut loads = StepLoads::new(masses.len() * D, layout, &self.plan.loads, false);
-        let evaluated = loads.evaluate_forces_at(&self.plan.loads, masses, self.plan.start);
-        evaluated.map_err(EquilibriumError::Start)?;
-        let held = state.temperatures.iter().map(|&theta| Prescribed {
-            middle: theta,
-            end: theta,
-        });
-        loads.prescribed = held.map(Some).collect();
+        let (layout, nodes) = (&problem.layout, &problem.ends);
         // The rows of this scheme are `2 m/h Δq − 2 p⁰ + h F`; at rest only h F is left.
         let scheme = Scheme::Midpoint;
-        let (ends, rockets) = (self.plan.ends(), self.plan.loads.rocket_lines());
-        let elements = (&ends, layout);
-        let systems = Systems::new(
-            scheme,
-            elements,
-            &conduction,
-            &rockets,
-            self.plan.memory_limit,
-        );
+        let (rockets, limit) = (self.plan.loads.rocket_lines(), self.plan.memory_limit);
+        let conduction = &problem.conduction;
+        let systems = Systems::new(scheme, (nodes, layout), conduction, &rockets, limit);
         let systems = systems.map_err(|error| refuse(vec![error.into()]))?;
-        let nodes = &ends;
         let by = Conjugates::One(OneSet::Point(PointRule::Rest));
         let mut groups = Vec::with_capacity(self.groups.len());
-        for group in &self.groups {
-            groups.push(group.duplicate().build(by, Placed { nodes, layout }));
-        }
         let mut errors = Vec::new();
-        for group in &mut groups {
+        for group in &self.groups {
+            let mut group = group.duplicate().build(by, Placed { nodes, layout });
             let elements = group.elements_mut();
-            elements.initialize(state, &mut |error| errors.push(SceneError::State(error)));
+            elements.initialize(&mut problem.state, &mut |error| errors.push(error.into()));
+            groups.push(group);
         }
         if !errors.is_empty() {
             return Err(refuse(errors));
         }
-        let mut solver = Solver::new(scheme, systems, masses, layout, &conduction, &loads);
+        let (masses, loads) = (&problem.masses, &problem.loads);
+        let mut solver = Solver::new(scheme, systems, masses, layout, conduction, loads);
         for group in &mut groups {
-            group.connect(&solver.sites(layout, &conduction));
+            group.connect(&solver.sites(layout, conduction));
         }
         let view = StepView {
             phase: settings.phase,
             step: LONG,
             per_step: 0.0,
-            state,
-            conduction: &conduction,
-            loads: &loads,
+            state: &problem.state,
+            conduction,
+            loads,
             stages: &[],
             masses,
         };
         let how = (settings.newton, arms(&self.plan.entries.elements));
         let rest = AtRest::new(&mut solver, &mut groups, &view, how);
         let mut rest = rest.map_err(EquilibriumError::Start)?;
-        self.plan.follow(&mut rest, settings.load_steps, state)
+        (self.plan).follow(&mut rest, settings.load_steps, &problem.state)
     }
 }
 
+/// What is to come to rest. Temperatures are no unknowns.
+struct Problem {
+    masses: Masses,
+    layout: Layout,
+    ends: Ends,
+    state: State,
+    /// The largest heat that an element receives, W.
+    heat: f64,
+    conduction: Conduction,
+    loads: StepLoads,
+}
+
 impl Plan {
+    fn problem(
+        &self,
+        groups: &dyn Groups,
+        shapes: &[Shape],
+        settings: Equilibrium,
+    ) -> Result<Problem, EquilibriumError> {
+        let errors = self.check(groups);
+        if !errors.is_empty() {
+            return Err(EquilibriumError::Scene { errors });
+        }
+        let masses = self.masses();
+        let layout = entry::layout(self.dimension(), &masses, (&self.places(), shapes));
+        let state = initial_state(self, &layout, None, None);
+        let mut state = state.map_err(|errors| EquilibriumError::Scene { errors })?;
+        let heat = if settings.balances_heat {
+            heat::balance(self, groups, &layout, &mut state.temperatures)?
+        } else {
+            0.0
+        };
+        let mut loads = StepLoads::new(self.entries.positions.len(), &layout, &self.loads, false);
+        let evaluated = loads.evaluate_forces_at(&self.loads, &masses, self.start);
+        evaluated.map_err(EquilibriumError::Start)?;
+        let held = state.temperatures.iter().map(|&theta| Prescribed {
+            middle: theta,
+            end: theta,
+        });
+        loads.prescribed = held.map(Some).collect();
+        Ok(Problem {
+            conduction: Conduction::new(&[], Vec::new(), &layout),
+            ends: self.ends(),
+            state: *state,
+            masses,
+            layout,
+            heat,
+            loads,
+        })
+    }
+
     fn follow(
         &self,
         rest: &mut AtRest<'_>,

@@ -191,7 +191,7 @@ impl<const D: usize> Simulation<D> {
     ) -> Result<&'s mut Self, Vec<SceneError>> {
         let (_, in_use, _) = schemes;
         slot.take_if(|used| !used.run.fits(&scene.plan, &outline, in_use));
-        let (newton, used) = slot.take().and_then(Self::into_newton).unzip();
+        let (newton, used) = slot.take().and_then(|used| used.run.into_newton()).unzip();
         let mut start = FirstState::new(&scene.plan, &outline, step, used)?;
         let plan = &mut scene.plan;
         let memory = if let Some(newton) = newton {
@@ -223,22 +223,27 @@ impl<const D: usize> Simulation<D> {
         let run = Run::new(plan, (outline, start), Box::new(stepper), schemes, step);
         Ok(slot.insert(Self { run }))
     }
+}
 
+impl Run {
     /// What another run of the same kind can use.
-    fn into_newton(self) -> Option<(Box<Newton<D>>, Used)> {
-        let used = Used {
-            effort: self.run.effort.renewed(),
-            state: self.run.state,
-            next: self.run.next,
-        };
-        match *(self.run.stepper as Box<dyn Any>).downcast().ok()? {
+    fn into_newton<const D: usize>(self) -> Option<(Box<Newton<D>>, Used)> {
+        let (stepper, used) = self.into_used();
+        match *(stepper as Box<dyn Any>).downcast().ok()? {
             Stepper::Newton(newton) => Some((newton, used)),
             Stepper::Explicit(_) => None,
         }
     }
-}
 
-impl Run {
+    fn into_used(self) -> (Box<dyn Stepping>, Used) {
+        let used = Used {
+            effort: self.effort.renewed(),
+            state: self.state,
+            next: self.next,
+        };
+        (self.stepper, used)
+    }
+
     /// The run of a plan, whose entries are already used.
     fn new(
         plan: &mut Plan,

@@ -6,7 +6,7 @@ use super::Simulation;
 use super::stepper::Stepper;
 use crate::element::conduction::Partner;
 use crate::element::group::ElementView;
-use crate::element::handle::{Element, Handle, Node, Reservoir, SceneId};
+use crate::element::handle::{Element, Node, Reservoir, SceneId};
 use crate::element::kinematics::SolidState;
 use crate::element::loads::point;
 use crate::run::ledger::Ledger;

@@ -220,30 +220,31 @@ impl<const D: usize> Newton<D> {
         let groups = &mut self.groups;
         self.solver.linearize(groups, &view, unknowns, effort)
     }
+}
 
-    pub(super) fn evaluate_loads(
-        &mut self,
-        start: &Start<'_>,
-        scheme: Scheme,
-    ) -> Result<(), StepFailure> {
-        let (loads, masses, old) = (start.loads, start.masses, start.state);
-        let (time, step) = (old.time.value, start.step);
-        let span = [time, step];
-        let Some(rule) = scheme.tableau() else {
-            return self.loads.evaluate(loads, masses, span, old);
-        };
-        self.loads.evaluate_supports(loads, (span, 1.0), old)?;
-        for (stage, &share) in self.stages.iter_mut().zip(rule.times) {
-            let time = loads.inside(span, time + share * step);
-            stage.evaluate_forces_at(loads, masses, time)?;
-        }
-        // The paths of elements have their own times for supports.
-        let supports = rule.path.map_or(rule.times, |path| path.supports.times);
-        for (stage, &share) in self.stages.iter_mut().zip(supports) {
-            stage.evaluate_supports(loads, ([time, share * step], share), old)?;
-        }
-        Ok(())
+/// Evaluates the loads of a step, and those at its stages if the scheme has several.
+pub(super) fn evaluate_loads(
+    (whole, stages): (&mut StepLoads, &mut [StepLoads]),
+    start: &Start<'_>,
+    scheme: Scheme,
+) -> Result<(), StepFailure> {
+    let (loads, masses, old) = (start.loads, start.masses, start.state);
+    let (time, step) = (old.time.value, start.step);
+    let span = [time, step];
+    let Some(rule) = scheme.tableau() else {
+        return whole.evaluate(loads, masses, span, old);
+    };
+    whole.evaluate_supports(loads, (span, 1.0), old)?;
+    for (stage, &share) in stages.iter_mut().zip(rule.times) {
+        let time = loads.inside(span, time + share * step);
+        stage.evaluate_forces_at(loads, masses, time)?;
     }
+    // The paths of elements have their own times for supports.
+    let supports = rule.path.map_or(rule.times, |path| path.supports.times);
+    for (stage, &share) in stages.iter_mut().zip(supports) {
+        stage.evaluate_supports(loads, ([time, share * step], share), old)?;
+    }
+    Ok(())
 }
 
 /// The data shared by all elements during a step.

@@ -3,7 +3,7 @@
 use core::any::Any;
 use core::mem;
 
-use super::stepper::{Memory, Stepper, each};
+use super::stepper::{Memory, Stepper, each, evaluate_loads};
 use crate::algebra::memory::{MemoryLimit, TooLarge};
 use crate::element::group::{ElementTotals, Group, Misfit, Stiffness};
 use crate::element::handle::Element;
@@ -150,7 +150,9 @@ impl<const D: usize> Stepping for Stepper<D> {
 
     fn evaluate_loads(&mut self, start: &Start<'_>, scheme: Scheme) -> Result<(), StepFailure> {
         match self {
-            Self::Newton(newton) => newton.evaluate_loads(start, scheme),
+            Self::Newton(newton) => {
+                evaluate_loads((&mut newton.loads, &mut newton.stages), start, scheme)
+            }
             Self::Explicit(_) => Ok(()),
         }
     }

@@ -44,7 +44,7 @@ impl<const D: usize> Search<'_, D> {
             force: &mut solver.old_force,
             lengths: &mut solver.lengths,
             before: match start {
-                Start::Predicted => solver.past.before(view.step),
+                Start::Predicted => solver.past.history.before(view.step),
                 Start::Motion | Start::Rest | Start::RestByFactors => None,
             },
             by_factors: start == Start::RestByFactors,
@@ -127,7 +127,7 @@ impl<const D: usize> Solver<D> {
         let is_at_rest = matches!(start, Start::Rest | Start::RestByFactors);
         let is_predicted = !is_at_rest && view.phase.moves() && !self.scheme.is_classical();
         let half_step = 0.5 * view.step;
-        let predictor = self.past.predictor();
+        let predictor = self.past.history.predictor();
         let rule = self.scheme.tableau();
         for node in &mut self.nodes {
             let set = &self.sets[node.set as usize];
@@ -186,7 +186,7 @@ impl<const D: usize> Solver<D> {
     /// Removes the last step from the history of the predictor.
     pub(crate) fn undo(&mut self) {
         if !self.scheme.is_classical() {
-            self.past.forget();
+            self.past.history.forget();
         }
     }
 

@@ -28,7 +28,7 @@ impl<const D: usize> Solver<D> {
         let is_exact = self.scheme.is_exact();
         let takes_increments = self.scheme.closing() == Closing::Increments;
         let mut largest = Largest::default();
-        self.past.remember();
+        self.past.history.remember();
         if !self.coupling.is_none() {
             self.find_factors(0);
             self.coupling.find_impulses(Some(0), twice_per_step);
