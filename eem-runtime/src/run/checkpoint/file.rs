@@ -230,25 +230,25 @@ impl<'a> Text<'a> {
         Ok(())
     }
 
-    /// N numbers.
-    pub(super) fn array<const N: usize>(&mut self, name: &'static str, own: [&mut f64; N]) -> Read {
-        let mut numbers = Vec::with_capacity(N);
-        for number in &own {
+    /// Given numbers.
+    pub(super) fn array(&mut self, name: &'static str, own: &mut [&mut f64]) -> Read {
+        let mut numbers = Vec::with_capacity(own.len());
+        for number in &*own {
             numbers.push(**number);
         }
         self.numbers(name, &mut numbers)?;
-        if numbers.len() != N {
+        if numbers.len() != own.len() {
             return Err(self.fault(name));
         }
-        for (own, number) in own.into_iter().zip(numbers) {
-            *own = number;
+        for (own, number) in own.iter_mut().zip(numbers) {
+            **own = number;
         }
         Ok(())
     }
 
     /// One number.
     pub(super) fn number(&mut self, name: &'static str, own: &mut f64) -> Read {
-        self.array(name, [own])
+        self.array(name, &mut [own])
     }
 
     /// One number or none.
@@ -344,7 +344,7 @@ impl<'a> Text<'a> {
 
     /// A sum and its compensation.
     pub(super) fn sum(&mut self, name: &'static str, own: &mut Sum) -> Read {
-        self.array(name, [&mut own.value, &mut own.carry])
+        self.array(name, &mut [&mut own.value, &mut own.carry])
     }
 
     /// Sums, and their compensations in the next line.

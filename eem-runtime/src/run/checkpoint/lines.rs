@@ -139,7 +139,10 @@ fn control(text: &mut Text<'_>, own: &mut SavedControl) -> Read {
         temperature,
         over,
     } = &mut own.tolerance;
-    text.array("tolerances", [relative, position, momentum, temperature])?;
+    text.array(
+        "tolerances",
+        &mut [relative, position, momentum, temperature],
+    )?;
     text.maybe("time of the tolerance", over)?;
     text.few("error and size of the last step", &mut own.controller.last)?;
     let StepStatistics {
@@ -257,7 +260,7 @@ fn past(text: &mut Text<'_>, own: &mut SavedPast) -> Read {
     let [last, before] = &mut own.forces;
     text.numbers("last forces", last)?;
     text.numbers("earlier forces", before)?;
-    text.array("errors of forces", own.errors.each_mut())?;
+    text.array("errors of forces", &mut own.errors.each_mut())?;
     text.numbers("start of the last step", &mut own.internal)
 }
 

@@ -1,11 +1,9 @@
 //! Simulations in one to three dimensions are compiled with this crate.
 //!
 //! Generic functions are compiled again in every optimised program that calls them: a program with one material took 30
-//! CPU seconds, and 5 without those of `Simulation`; 2 without the groups of `element/group/springs.rs`. So the work of a
-//! simulation starts in a table of functions: that of this crate or, for other dimensions, one that is compiled where it is
-//! used.
+//! CPU seconds, and 5 without those of `Simulation`; 2 without the groups of `element/group/springs.rs`. So a simulation begins
+//! in a function of this crate or, for other dimensions, in one that is compiled where it is used. From there on it is a [`Run`].
 
-use super::event::Event;
 use super::start::Outline;
 use super::stepper::Stepper;
 use super::{Run, Simulation, Stepped};
@@ -66,7 +64,7 @@ impl<const D: usize> Simulation<D> {
         scheme: Scheme,
         step: f64,
     ) -> Result<&mut Self, RefusedScene<D>> {
-        (Functions::get().new)(slot, scene, scheme, (step, None))
+        begin_of()(slot, scene, scheme, (step, None))
     }
 
     fn of_scene(
@@ -75,7 +73,7 @@ impl<const D: usize> Simulation<D> {
         steps: (f64, Option<Tolerance>),
     ) -> Result<Self, RefusedScene<D>> {
         let mut slot = None;
-        (Functions::get().new)(&mut slot, scene, scheme, steps)?;
+        begin_of()(&mut slot, scene, scheme, steps)?;
         Ok(slot.unwrap_or_else(|| unreachable!("it has begun")))
     }
 
@@ -158,47 +156,30 @@ impl Run {
     }
 }
 
-/// See [`end_at_event`](Simulation::end_at_event).
-type EndAtEvent<const D: usize> = fn(&mut Simulation<D>, &mut [Event<'_, D>], f64) -> Stepped;
-
 /// See [`begin`](Simulation::begin).
-type New<const D: usize> = fn(
+type Begin<const D: usize> = fn(
     &mut Option<Simulation<D>>,
     Scene<D>,
     Scheme,
     (f64, Option<Tolerance>),
 ) -> Result<&mut Simulation<D>, RefusedScene<D>>;
 
-/// The functions in which the work of a simulation starts.
-pub(super) struct Functions<const D: usize> {
-    new: New<D>,
-    pub(super) end_at_event: EndAtEvent<D>,
-}
-
-/// Not for the unit tests of this crate, which run no simulation: everything behind a `static` is compiled, in 50 s.
+/// Not for the unit tests of this crate, which run no simulation: everything behind a `static` is compiled.
 #[cfg(not(test))]
-static LINE: Functions<1> = Functions::HERE;
+static LINE: Begin<1> = Simulation::begin;
 #[cfg(not(test))]
-static PLANE: Functions<2> = Functions::HERE;
+static PLANE: Begin<2> = Simulation::begin;
 #[cfg(not(test))]
-static SPACE: Functions<3> = Functions::HERE;
+static SPACE: Begin<3> = Simulation::begin;
 
-impl<const D: usize> Functions<D> {
-    /// Compiled where they are used.
-    const HERE: Self = Self {
-        new: Simulation::begin,
-        end_at_event: Simulation::end_at_event,
-    };
-
-    /// The table of this crate if it has one. A branch that a constant rules out is not compiled.
-    #[inline]
-    pub(super) fn get() -> &'static Self {
-        #[cfg(not(test))]
-        if const { 1 <= D && D <= 3 } {
-            return of_dimension(D, [&LINE, &PLANE, &SPACE]);
-        }
-        const { &Self::HERE }
+/// The function of this crate if it has one. A branch that a constant rules out is not compiled.
+#[inline]
+fn begin_of<const D: usize>() -> Begin<D> {
+    #[cfg(not(test))]
+    if const { 1 <= D && D <= 3 } {
+        return *of_dimension(D, [&LINE, &PLANE, &SPACE]);
     }
+    Simulation::begin
 }
 
 impl<const D: usize> Simulation<D> {
