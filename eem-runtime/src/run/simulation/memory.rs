@@ -159,7 +159,7 @@ impl<T, F: FnOnce(&mut T)> Drop for Guard<T, F> {
 }
 
 /// Calls `act`, and `restore` if `act` fails or panics.
-pub(super) fn or_restore<T, R, E>(
+pub(super) fn or_restore<T: ?Sized, R, E>(
     value: &mut T,
     restore: impl FnOnce(&mut T),
     act: impl FnOnce(&mut T) -> Result<R, E>,

@@ -246,9 +246,12 @@ fn locate(watched: &mut dyn Watched, mut bracket: Bracket, end: f64, place: usiz
 }
 
 /// The function of an event at the present state. If it fails, the last step is undone.
-fn value_or_undo(mut watched: &mut dyn Watched, place: usize) -> Result<f64, StepError> {
-    let undo = |watched: &mut &mut dyn Watched| watched.run().undo();
-    let value = or_restore(&mut watched, undo, |watched| watched.value(place));
+fn value_or_undo(watched: &mut dyn Watched, place: usize) -> Result<f64, StepError> {
+    let value = or_restore(
+        watched,
+        |watched| watched.run().undo(),
+        |watched| watched.value(place),
+    );
     let run = watched.run();
     value.map_err(|failure| run.failed(run.step, failure))
 }
