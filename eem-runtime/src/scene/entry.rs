@@ -1,9 +1,7 @@
 //! The nodes and elements of a scene.
 
-use crate::element::ends::Ends;
 use crate::element::layout::{Layout, Shape};
 use crate::element::masses::Masses;
-use eem_material::number::compact::compact;
 
 /// A node: an anchor or a mass.
 #[derive(Clone, Debug)]
@@ -37,13 +35,6 @@ pub(crate) struct ElementEntry {
     pub(crate) place: usize,
 }
 
-/// The group of each element, and its index there.
-pub(super) fn places(elements: &[ElementEntry]) -> Vec<[u32; 2]> {
-    let places = elements.iter();
-    let places = places.map(|entry| [compact(entry.group), compact(entry.place)]);
-    places.collect()
-}
-
 /// The numbering of a scene of this dimension without interface temperatures, given the places of its elements and the
 /// capabilities of each group.
 pub(crate) fn layout(
@@ -54,13 +45,4 @@ pub(crate) fn layout(
     let is_mass = masses.iter().map(|mass| mass.is_some());
     let shapes = places.iter().map(|&[group, _]| shapes[group as usize]);
     Layout::new(dimension, is_mass, shapes)
-}
-
-/// The nodes of elements.
-pub(super) fn ends(elements: &[ElementEntry]) -> Ends {
-    let mut ends = Ends::none();
-    for entry in elements {
-        ends.push(entry.nodes.iter().map(|&node| compact(node)));
-    }
-    ends
 }

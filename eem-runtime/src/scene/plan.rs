@@ -14,6 +14,7 @@ use crate::element::layout::{Layout, Shape};
 use crate::element::lineage::Lineage;
 use crate::element::masses::Masses;
 use eem_material::free_energy::FreeEnergy;
+use eem_material::number::compact::compact;
 
 /// Nodes, elements without their models, reservoirs, conductances and loads. It is compiled once for all dimensions.
 #[derive(Clone, Debug)]
@@ -133,12 +134,18 @@ impl Plan {
 
     /// The group of each element, and its index there.
     pub(crate) fn places(&self) -> Vec<[u32; 2]> {
-        entry::places(&self.entries.elements)
+        let places = self.entries.elements.iter();
+        let places = places.map(|entry| [compact(entry.group), compact(entry.place)]);
+        places.collect()
     }
 
     /// The nodes of its elements.
     pub(crate) fn ends(&self) -> Ends {
-        entry::ends(&self.entries.elements)
+        let mut ends = Ends::none();
+        for entry in &self.entries.elements {
+            ends.push(entry.nodes.iter().map(|&node| compact(node)));
+        }
+        ends
     }
 
     pub(super) fn push_node(
