@@ -17,7 +17,7 @@ const HALVINGS: usize = 10;
 /// The start of a step of a size; borrows only the fields that it names.
 macro_rules! start {
     ($run:expr, $step:expr) => {
-        crate::run::simulation::stepping::Start {
+        crate::run::simulation::stepper::Start {
             step: $step,
             state: &$run.state,
             conduction: &$run.conduction,

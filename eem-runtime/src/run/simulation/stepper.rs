@@ -1,6 +1,5 @@
 //! The elements of a scene with the solver of its scheme.
 
-use super::stepping::Start;
 use crate::algebra::memory::{MemoryLimit, TooLarge};
 use crate::element::group::{Elements, ExplicitGroup, Group, Loose, Placed, StepView};
 use crate::element::loads::StepLoads;
@@ -9,11 +8,14 @@ use crate::element::state::State;
 use crate::element::tableau::Tableau;
 use crate::scene::error::SceneError;
 use crate::step::error::StepFailure;
-use crate::step::explicit::{Explicit, Site};
+use crate::step::explicit::{Explicit, ExplicitView, Site};
 use crate::step::outcome::Attempt;
 use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::{Effort, Solver};
 use crate::step::systems::Systems;
+
+/// A step from the present state, or another one of its size, whatever the dimension.
+pub(super) type Start<'a> = ExplicitView<'a, 0>;
 
 /// The elements of a scene without a scheme, a set per model.
 type Models<const D: usize> = Vec<Box<dyn Loose<D>>>;

@@ -3,7 +3,7 @@
 use core::any::Any;
 use core::mem;
 
-use super::stepper::{Memory, Stepper, each, evaluate_loads};
+use super::stepper::{Memory, Start, Stepper, each, evaluate_loads};
 use crate::algebra::memory::{MemoryLimit, TooLarge};
 use crate::element::group::{ElementTotals, Group, Misfit, Stiffness};
 use crate::element::handle::Element;
@@ -16,9 +16,6 @@ use crate::step::outcome::Attempt;
 use crate::step::scheme::Scheme;
 use crate::step::solver::{Effort, SavedPast};
 use eem_material::number::digest::Digest;
-
-/// A step from the present state, or another one of its size, whatever the dimension.
-pub(super) type Start<'a> = ExplicitView<'a, 0>;
 
 /// What an explicit scheme knows of it.
 const fn of_explicit<'a, const D: usize>(start: &Start<'a>) -> ExplicitView<'a, D> {
