@@ -9,6 +9,7 @@ pub(crate) mod error;
 pub(crate) mod explicit;
 pub(crate) mod features;
 pub(crate) mod law;
+#[cfg(feature = "gradients")]
 mod line;
 pub(crate) mod load_rule;
 pub(crate) mod loads;

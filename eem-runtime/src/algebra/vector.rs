@@ -5,7 +5,7 @@ use eem_material::number::scalar::Scalar;
 /// The vector with these entries: `core::array::from_fn` for numbers, in a thirtieth of its code.
 #[inline]
 pub(crate) fn vector<T: Copy + Default, const N: usize>(
-    mut entry: impl FnMut(usize) -> T,
+    entry: impl Fn(usize) -> T + Copy,
 ) -> [T; N] {
     let mut all = [T::default(); N];
     let mut index = 0;

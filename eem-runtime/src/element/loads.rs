@@ -43,6 +43,8 @@ pub(crate) struct StepLoads {
     pub(crate) moved: Vec<usize>,
     /// Per thermal slot.
     pub(crate) prescribed: Vec<Option<Prescribed>>,
+    /// Memory for the value of one load.
+    pub(crate) value: Vec<f64>,
     /// The thermal slots of the elements whose temperatures are prescribed, in the order of the loads.
     pub(crate) slots: Vec<Option<usize>>,
 }

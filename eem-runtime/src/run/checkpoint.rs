@@ -209,7 +209,8 @@ impl Checkpoint {
 
     /// The same checkpoint with digests of the entries that follow from the steps.
     pub(crate) fn sealed(mut self) -> Self {
-        self.seals = self.digests().map(|(_, digest)| digest).collect();
+        let digests = self.digests().into_iter();
+        self.seals = digests.map(|(_, digest)| digest).collect();
         self
     }
 }

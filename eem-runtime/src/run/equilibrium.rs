@@ -6,11 +6,12 @@ pub(crate) mod motion;
 use crate::algebra::ascending;
 use crate::element::conduction::Conduction;
 use crate::element::conjugates::{Conjugates, OneSet, PointRule};
+use crate::element::ends::Ends;
 #[cfg(not(test))]
 use crate::element::group::springs::of_dimension;
 use crate::element::group::{Placed, StepView};
 use crate::element::handle::Node;
-use crate::element::layout::Layout;
+use crate::element::layout::{Layout, Shape};
 use crate::element::loads::{Prescribed, StepLoads};
 use crate::element::masses::Masses;
 use crate::element::phase::Phase;
@@ -19,6 +20,7 @@ use crate::run::simulation::start::initial_state;
 use crate::scene::Scene;
 use crate::scene::entry::{self, ElementEntry};
 use crate::scene::error::SceneError;
+use crate::scene::plan::{Entries, Groups, Plan};
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Solver;
@@ -225,80 +227,112 @@ impl<const D: usize> Scene<D> {
         settings: Equilibrium,
     ) -> Result<EquilibriumReport, EquilibriumError> {
         settings.check()?;
-        let errors = self.check();
-        if !errors.is_empty() {
-            return Err(EquilibriumError::Scene { errors });
-        }
-        // Temperatures are no unknowns.
-        let masses = self.masses();
-        let elements = (&self.places()[..], &self.shapes()[..]);
-        let layout = entry::layout(D, &masses, elements);
-        let state = initial_state(self, &layout, None, None);
-        let mut state = state.map_err(|errors| EquilibriumError::Scene { errors })?;
-        let heat = if settings.balances_heat {
-            heat::balance(self, &layout, &mut state.temperatures)?
-        } else {
-            0.0
-        };
-        let (next, report) = self.find_rest(settings, (&masses, &layout), &mut state)?;
-        self.take_state(&layout, &next);
-        Ok(EquilibriumReport { heat, ..report })
+        let shapes = self.shapes();
+        let mut problem = self.plan.problem(&self.groups, &shapes, settings)?;
+        let (next, report) = self.find_rest(settings, &mut problem)?;
+        self.plan.take_state(&self.groups, &problem.layout, &next);
+        Ok(EquilibriumReport {
+            heat: problem.heat,
+            ..report
+        })
     }
 
     fn find_rest(
         &self,
         settings: Equilibrium,
-        (masses, layout): (&Masses, &Layout),
-        state: &mut State,
+        problem: &mut Problem,
     ) -> Result<(State, EquilibriumReport), EquilibriumError> {
         let refuse = |errors: Vec<SceneError>| EquilibriumError::Scene { errors };
-        let conduction = Conduction::new(&[], Vec::new(), layout);
-        let mut loads = StepLoads::new(masses.len() * D, layout, &self.loads, false);
-        let evaluated = loads.evaluate_forces_at(&self.loads, masses, self.start);
+        let (layout, nodes) = (&problem.layout, &problem.ends);
+        // The rows of this scheme are `2 m/h Δq − 2 p⁰ + h F`; at rest only h F is left.
+        let scheme = Scheme::Midpoint;
+        let (rockets, limit) = (self.plan.loads.rocket_lines(), self.plan.memory_limit);
+        let conduction = &problem.conduction;
+        let systems = Systems::new(scheme, (nodes, layout), conduction, &rockets, limit);
+        let systems = systems.map_err(|error| refuse(vec![error.into()]))?;
+        let by = Conjugates::One(OneSet::Point(PointRule::Rest));
+        let mut groups = Vec::with_capacity(self.groups.len());
+        let mut errors = Vec::new();
+        for group in &self.groups {
+            let mut group = group.duplicate().build(by, Placed { nodes, layout });
+            let elements = group.elements_mut();
+            elements.initialize(&mut problem.state, &mut |error| errors.push(error.into()));
+            groups.push(group);
+        }
+        if !errors.is_empty() {
+            return Err(refuse(errors));
+        }
+        let (masses, loads) = (&problem.masses, &problem.loads);
+        let mut solver = Solver::new(scheme, systems, masses, layout, conduction, loads);
+        for group in &mut groups {
+            group.connect(&solver.sites(layout, conduction));
+        }
+        let view = StepView {
+            phase: settings.phase,
+            step: LONG,
+            per_step: 0.0,
+            state: &problem.state,
+            conduction,
+            loads,
+            stages: &[],
+            masses,
+        };
+        let how = (settings.newton, arms(&self.plan.entries.elements));
+        let rest = AtRest::new(&mut solver, &mut groups, &view, how);
+        let mut rest = rest.map_err(EquilibriumError::Start)?;
+        (self.plan).follow(&mut rest, settings.load_steps, &problem.state)
+    }
+}
+
+/// What is to come to rest. Temperatures are no unknowns.
+struct Problem {
+    masses: Masses,
+    layout: Layout,
+    ends: Ends,
+    state: State,
+    /// The largest heat that an element receives, W.
+    heat: f64,
+    conduction: Conduction,
+    loads: StepLoads,
+}
+
+impl Plan {
+    fn problem(
+        &self,
+        groups: &dyn Groups,
+        shapes: &[Shape],
+        settings: Equilibrium,
+    ) -> Result<Problem, EquilibriumError> {
+        let errors = self.check(groups);
+        if !errors.is_empty() {
+            return Err(EquilibriumError::Scene { errors });
+        }
+        let masses = self.masses();
+        let layout = entry::layout(self.dimension(), &masses, (&self.places(), shapes));
+        let state = initial_state(self, &layout, None, None);
+        let mut state = state.map_err(|errors| EquilibriumError::Scene { errors })?;
+        let heat = if settings.balances_heat {
+            heat::balance(self, groups, &layout, &mut state.temperatures)?
+        } else {
+            0.0
+        };
+        let mut loads = StepLoads::new(self.entries.positions.len(), &layout, &self.loads, false);
+        let evaluated = loads.evaluate_forces_at(&self.loads, &masses, self.start);
         evaluated.map_err(EquilibriumError::Start)?;
         let held = state.temperatures.iter().map(|&theta| Prescribed {
             middle: theta,
             end: theta,
         });
         loads.prescribed = held.map(Some).collect();
-        // The rows of this scheme are `2 m/h Δq − 2 p⁰ + h F`; at rest only h F is left.
-        let scheme = Scheme::Midpoint;
-        let (ends, rockets) = (self.ends(), self.loads.rocket_lines());
-        let elements = (&ends, layout);
-        let systems = Systems::new(scheme, elements, &conduction, &rockets, self.memory_limit);
-        let systems = systems.map_err(|error| refuse(vec![error.into()]))?;
-        let nodes = &ends;
-        let by = Conjugates::One(OneSet::Point(PointRule::Rest));
-        let mut groups = Vec::with_capacity(self.groups.len());
-        for group in &self.groups {
-            groups.push(group.duplicate().build(by, Placed { nodes, layout }));
-        }
-        let mut errors = Vec::new();
-        for group in &mut groups {
-            let elements = group.elements_mut();
-            elements.initialize(state, &mut |error| errors.push(SceneError::State(error)));
-        }
-        if !errors.is_empty() {
-            return Err(refuse(errors));
-        }
-        let mut solver = Solver::new(scheme, systems, masses, layout, &conduction, &loads);
-        for group in &mut groups {
-            group.connect(&solver.sites(layout, &conduction));
-        }
-        let view = StepView {
-            phase: settings.phase,
-            step: LONG,
-            per_step: 0.0,
-            state,
-            conduction: &conduction,
-            loads: &loads,
-            stages: &[],
+        Ok(Problem {
+            conduction: Conduction::new(&[], Vec::new(), &layout),
+            ends: self.ends(),
+            state: *state,
             masses,
-        };
-        let how = (settings.newton, arms(&self.elements));
-        let rest = AtRest::new(&mut solver, &mut groups, &view, how);
-        let mut rest = rest.map_err(EquilibriumError::Start)?;
-        self.follow(&mut rest, settings.load_steps, state)
+            layout,
+            heat,
+            loads,
+        })
     }
 
     fn follow(
@@ -348,36 +382,48 @@ impl<const D: usize> Scene<D> {
     }
 
     fn name(&self, rest: &AtRest<'_>, softest: &Softest) -> FreeMotion {
-        let mut displacements = vec![0.0; self.nodes.len() * D];
-        for (&node, by) in softest.nodes.iter().zip(softest.motion.chunks_exact(D)) {
-            displacements[node * D..][..D].copy_from_slice(by);
+        let mut displacements = vec![0.0; self.entries.positions.len()];
+        for (&node, by) in softest
+            .nodes
+            .iter()
+            .zip(softest.motion.chunks_exact(self.dimension()))
+        {
+            displacements[node * self.dimension()..][..self.dimension()].copy_from_slice(by);
         }
         let moved = Moved {
-            dimension: D,
+            dimension: self.dimension(),
             positions: &rest.positions(),
             displacements: &displacements,
-            elements: &self.elements,
-            is_mass: &|node| self.nodes[node].mass.is_some(),
+            elements: &self.entries.elements,
+            is_mass: &|node| self.entries.nodes[node].mass.is_some(),
             node_at: &|node| self.node_at(node),
         };
         moved.name(softest.stiffness)
     }
 
     /// Takes over positions, temperatures and viscous stretches, at rest.
-    fn take_state(&mut self, layout: &Layout, state: &State) {
-        let positions = state.positions.values().as_chunks::<D>().0;
-        for (node, &position) in self.nodes.iter_mut().zip(positions) {
+    fn take_state(&mut self, groups: &dyn Groups, layout: &Layout, state: &State) {
+        let dimension = self.dimension();
+        let Entries {
+            nodes,
+            positions,
+            velocities,
+            elements,
+            ..
+        } = &mut self.entries;
+        for (index, node) in nodes.iter_mut().enumerate() {
             if node.mass.is_some() {
-                node.position = position.into();
-                node.velocity = [0.0; D].into();
+                let own = index * dimension..(index + 1) * dimension;
+                positions[own.clone()].copy_from_slice(&state.positions.values()[own.clone()]);
+                velocities[own].fill(0.0);
                 node.momentum = None;
             }
         }
-        for (entry, slots) in self.elements.iter_mut().zip(&layout.elements) {
+        for (entry, slots) in elements.iter_mut().zip(&layout.elements) {
             if let Some(slot) = slots.thermal {
                 entry.temperature = Some(state.temperatures[slot]);
             }
-            let dashpots = self.groups[entry.group].shape().dashpots;
+            let dashpots = groups.shape(entry.group).map_or(0, |shape| shape.dashpots);
             let viscous = &state.viscous.values()[slots.viscous..][..dashpots];
             entry.viscous_stretches = viscous.iter().copied().enumerate().collect();
         }

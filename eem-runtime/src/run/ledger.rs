@@ -9,7 +9,7 @@ use core::fmt;
 use nalgebra::SVector;
 
 use crate::algebra::vector;
-use crate::element::group::{ElementTotals, Elements};
+use crate::element::group::ElementTotals;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use eem_material::number::compensated::Total;
@@ -82,21 +82,18 @@ pub struct Ledger<const D: usize> {
     pub unresolved: u64,
 }
 
-impl<const D: usize> Ledger<D> {
-    /// The balance sheet of a state; the steps before it are unknown.
+impl Ledger<0> {
+    /// The balance sheet of a state, given the totals of its elements, but for the linear momentum; the steps before it are unknown.
     pub(crate) fn of(
         state: &State,
         masses: &Masses,
-        groups: &mut dyn Iterator<Item = &dyn Elements<D>>,
+        totals: &ElementTotals,
         reservoirs: &[f64],
-        gravity: &SVector<f64, D>,
+        gravity: &[f64],
     ) -> Self {
-        let kinetic_energy = kinetic_energy(D, state, masses);
-        let potential_energy = potential_energy(state, masses, gravity.as_slice());
-        let mut totals = ElementTotals::new();
-        for group in groups {
-            group.add_totals(state, &mut totals);
-        }
+        let dimension = gravity.len();
+        let kinetic_energy = kinetic_energy(dimension, state, masses);
+        let potential_energy = potential_energy(state, masses, gravity);
         let (mut reservoir_heat, mut reservoir_entropy) = (Total::default(), Total::default());
         for (index, &theta) in reservoirs.iter().enumerate() {
             let received = state.reservoir_entropies.sum(index);
@@ -117,7 +114,6 @@ impl<const D: usize> Ledger<D> {
             -heat,
         ];
         let [energies @ .., _, _] = &terms;
-        let momenta = state.momenta.values();
         let mut entropy = totals.entropy;
         entropy.add_total(reservoir_entropy);
         entropy.add_sum(state.thermostat_entropy);
@@ -136,21 +132,53 @@ impl<const D: usize> Ledger<D> {
             reservoir_entropy: reservoir_entropy.value(),
             thermostat_entropy: state.thermostat_entropy.value,
             entropy: entropy.value(),
-            linear_momentum: vector(|axis| component(D, momenta, axis)).into(),
-            angular_momentum: angular_momentum(D, state, masses).into(),
+            linear_momentum: SVector::from([]),
+            angular_momentum: angular_momentum(dimension, state, masses).into(),
             unresolved: 0,
         }
     }
 
+    /// With the linear momentum of the state.
+    pub(crate) fn with_momentum<const D: usize>(self, state: &State) -> Ledger<D> {
+        let momenta = state.momenta.values();
+        Ledger {
+            kinetic_energy: self.kinetic_energy,
+            potential_energy: self.potential_energy,
+            internal_energy: self.internal_energy,
+            reservoir_heat: self.reservoir_heat,
+            lost_heat: self.lost_heat,
+            energy: self.energy,
+            work: self.work,
+            heat: self.heat,
+            balance: self.balance,
+            element_entropy: self.element_entropy,
+            element_entropy_of_state: self.element_entropy_of_state,
+            reservoir_entropy: self.reservoir_entropy,
+            thermostat_entropy: self.thermostat_entropy,
+            entropy: self.entropy,
+            linear_momentum: vector(|axis| component(D, momenta, axis)).into(),
+            angular_momentum: self.angular_momentum,
+            unresolved: self.unresolved,
+        }
+    }
+
     /// The name, value and unit of an entry that is not finite. The laws could not be checked with it.
-    pub(crate) fn infinite_entry(&self) -> Option<(&'static str, f64, &'static str)> {
+    pub(crate) fn infinite_entry(
+        &self,
+        state: &State,
+        dimension: usize,
+    ) -> Option<(&'static str, f64, &'static str)> {
+        let momenta = state.momenta.values();
+        let momentum: Vec<_> = (0..dimension)
+            .map(|axis| component(dimension, momenta, axis))
+            .collect();
         first_infinite(&[
             ("kinetic energy", &[self.kinetic_energy], "J"),
             ("potential energy", &[self.potential_energy], "J"),
             ("internal energy", &[self.internal_energy], "J"),
             ("energy", &[self.energy], "J"),
             ("entropy", &[self.entropy], "J/K"),
-            ("linear momentum", self.linear_momentum.as_slice(), "kg m/s"),
+            ("linear momentum", &momentum, "kg m/s"),
             (
                 "angular momentum",
                 self.angular_momentum.as_slice(),

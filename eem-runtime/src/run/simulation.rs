@@ -29,37 +29,43 @@ mod halves;
 mod memory;
 pub(crate) mod start;
 mod stepper;
+mod stepping;
 mod unseen;
 pub(crate) mod warning;
 
+use core::any::Any;
 use core::sync::atomic::AtomicBool;
 use core::{fmt, mem};
 
+use crate::algebra::indices;
 use crate::element::conduction::Conduction;
-use crate::element::layout::{Layout, Shape};
+use crate::element::group::{ElementTotals, Stiffness};
+use crate::element::handle::{Element, Handle};
+use crate::element::layout::{Layout, Shape, Slots};
 use crate::element::lineage::Lineage;
 use crate::element::masses::Masses;
 use crate::element::state::State;
-use crate::run::checkpoint::SavedControl;
 #[cfg(feature = "gradients")]
 use crate::run::gradient::history::Watch;
 #[cfg(feature = "gradients")]
 use crate::run::gradient::snapshots::Record;
+use crate::run::ledger::Ledger;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
-use crate::scene::loads::Loads;
+use crate::scene::loads::SceneLoads;
+use crate::scene::plan::{Entries, Plan};
 use crate::scene::refused::RefusedScene;
 use crate::step::control::{LeastScales, Tolerance, length};
 use crate::step::error::{StepError, StepFailure};
-use crate::step::explicit::Site;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
 use crate::step::timed::TimedLoad;
 use memory::{Automatic, Control, Unresolved};
-use start::{Needs, check_step, check_tolerance, find_entropies, initial_state};
-use stepper::{Memory, Stepper};
+use start::{FirstState, Needs, Outline, Used, find_entropies};
+use stepper::{Memory, Newton, Stepper};
+use stepping::{Stepping, site_of};
 
 /// A run: a scene, a scheme and the present state.
 ///
@@ -73,6 +79,12 @@ use stepper::{Memory, Stepper};
 ///
 /// A step either succeeds, or returns an error and leaves everything unchanged.
 pub struct Simulation<const D: usize> {
+    run: Run,
+}
+
+/// A run in a space of any dimension: what does not call functions of the user with a [`Simulation`]. It is compiled once.
+struct Run {
+    dimension: usize,
     scene: Lineage,
     scheme: Scheme,
     /// The scheme of the present steps; it differs from `scheme` for `Scheme::Auto`.
@@ -86,10 +98,11 @@ pub struct Simulation<const D: usize> {
     shapes: Vec<Shape>,
     layout: Layout,
     conduction: Conduction,
-    loads: Loads<D>,
+    loads: SceneLoads,
     /// Whether there are loads, thermostats or ovens.
     has_loads: bool,
-    stepper: Stepper<D>,
+    /// A [`Stepper`] of the dimension.
+    stepper: Box<dyn Stepping>,
     /// The least scales of errors, from the initial state.
     least: LeastScales,
     effort: Effort,
@@ -103,7 +116,7 @@ pub struct Simulation<const D: usize> {
     /// The time at which the run began, s.
     start: f64,
     /// The positions of anchors before a controller moved them for the first time, m, by node.
-    homes: Vec<(usize, [f64; D])>,
+    homes: Vec<(usize, Vec<f64>)>,
     /// The states since the call of `keep_history`; `None` without it.
     #[cfg(feature = "gradients")]
     history: Option<Box<Record>>,
@@ -135,9 +148,9 @@ enum Tried {
 impl<const D: usize> fmt::Debug for Simulation<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Simulation")
-            .field("scheme", &self.scheme)
-            .field("step", &self.step)
-            .field("state", &self.state)
+            .field("scheme", &self.run.scheme)
+            .field("step", &self.run.step)
+            .field("state", &self.run.state)
             .finish_non_exhaustive()
     }
 }
@@ -151,25 +164,20 @@ impl<const D: usize> Simulation<D> {
         scheme: Scheme,
         (step, tolerance): (f64, Option<Tolerance>),
     ) -> Result<&mut Self, RefusedScene<D>> {
-        let needs = Needs::of(&scene);
+        let shapes = scene.shapes();
+        let needs = Needs::of(&scene.plan, &scene.groups, &shapes);
         let in_use = needs.first(scheme);
-        let mut errors = scene.check();
-        errors.extend(needs.check(in_use).err());
-        errors.extend(check_step(step).err());
-        let checked = tolerance.map_or(Ok(()), |own| check_tolerance(&own, (scheme, in_use)));
-        errors.extend(checked.err());
+        let mut errors = scene.plan.check(&scene.groups);
+        needs.check_run((scheme, in_use), (step, tolerance), &mut errors);
         if !errors.is_empty() {
             return Err(RefusedScene::new(scene, errors));
         }
-        let run = match Self::take(slot, &mut scene, (scheme, in_use, needs), step) {
+        let outline = Outline::new(&scene.plan, shapes);
+        let run = match Self::take(slot, &mut scene, outline, (scheme, in_use, needs), step) {
             Ok(run) => run,
             Err(errors) => return Err(RefusedScene::new(scene, errors)),
         };
-        if let Some(tolerance) = &tolerance {
-            run.find_first_step(tolerance);
-        }
-        let default = (scheme == Scheme::Auto).then(Tolerance::default);
-        run.set_control(tolerance.or(default).map(SavedControl::new));
+        run.run.begin_control(tolerance);
         Ok(run)
     }
 
@@ -177,54 +185,96 @@ impl<const D: usize> Simulation<D> {
     fn take<'s>(
         slot: &'s mut Option<Self>,
         scene: &mut Scene<D>,
-        (scheme, in_use, needs): (Scheme, Scheme, Needs),
+        outline: Outline,
+        schemes: (Scheme, Scheme, Needs),
         step: f64,
     ) -> Result<&'s mut Self, Vec<SceneError>> {
-        let (masses, ends) = (scene.masses(), scene.ends());
-        let (places, shapes) = (scene.places(), scene.shapes());
-        let parts = (&places[..], &shapes[..]);
-        let (mut layout, conduction) = scene.numbering(&masses, parts);
-        let site = Site {
-            masses: &masses,
-            elements: &ends,
-            layout: &layout,
-            conduction: &conduction,
-            loads: &scene.loads,
-        };
-        let begin = |old| initial_state(scene, &layout, Some(step), old);
-        let (effort, memory, mut state, next);
-        slot.take_if(|used| !used.fits(scene, in_use, (&masses, &conduction), parts));
-        if let Some(used) = slot.take()
-            && let Stepper::Newton(newton) = used.stepper
-        {
-            (effort, memory) = (used.effort.renewed(), Memory::Used(newton));
-            (state, next) = (begin(Some(used.state))?, Some(used.next));
+        let (_, in_use, _) = schemes;
+        slot.take_if(|used| !used.run.fits(&scene.plan, &outline, in_use));
+        let (newton, used) = slot.take().and_then(|used| used.run.into_newton()).unzip();
+        let mut start = FirstState::new(&scene.plan, &outline, step, used)?;
+        let plan = &mut scene.plan;
+        let memory = if let Some(newton) = newton {
+            Memory::Used(newton)
         } else {
-            (effort, state, next) = (Effort::new(), begin(None)?, None);
-            let systems = Memory::new(in_use, site, scene.memory_limit);
-            memory = systems.map_err(|error| vec![error.into()])?;
-        }
-        state.follow_velocities(D, &masses);
+            let site = site_of(outline.site(&plan.loads));
+            let systems = Memory::new(in_use, site, plan.memory_limit);
+            systems.map_err(|error| vec![error.into()])?
+        };
         let groups = mem::take(&mut scene.groups);
-        let (nodes, pairs) = (&mut scene.nodes, &mut scene.pairs);
-        let entries = &mut scene.elements;
-        let parts = (in_use, site);
-        let stepper = Stepper::new(groups, memory, parts, &mut state, &mut |state, elements| {
-            find_entropies(elements, state, site)?;
-            // The entries of the scene are large, and now contained in masses, state and groups.
-            drop((mem::take(nodes), mem::take(pairs), mem::take(entries)));
-            Ok(())
-        });
+        let parts = (in_use, site_of(outline.site(&plan.loads)));
+        let entries = &mut plan.entries;
+        let stepper = Stepper::new(
+            groups,
+            memory,
+            parts,
+            &mut start.state,
+            &mut |state, all| {
+                find_entropies(all, state, parts.1)?;
+                // The entries of the scene are large, and now contained in masses, state and groups.
+                *entries = Entries::default();
+                Ok(())
+            },
+        );
         let stepper = stepper.map_err(|(errors, groups)| {
             scene.groups = groups;
             errors
         })?;
-        let loads = mem::replace(&mut scene.loads, Loads::none());
+        let run = Run::new(plan, (outline, start), Box::new(stepper), schemes, step);
+        Ok(slot.insert(Self { run }))
+    }
+}
+
+impl Run {
+    /// What another run of the same kind can use.
+    fn into_newton<const D: usize>(self) -> Option<(Box<Newton<D>>, Used)> {
+        let (stepper, used) = self.into_used();
+        match *(stepper as Box<dyn Any>).downcast().ok()? {
+            Stepper::Newton(newton) => Some((newton, used)),
+            Stepper::Explicit(_) => None,
+        }
+    }
+
+    fn into_used(self) -> (Box<dyn Stepping>, Used) {
+        let used = Used {
+            effort: self.effort.renewed(),
+            state: self.state,
+            next: self.next,
+        };
+        (self.stepper, used)
+    }
+
+    /// The run of a plan, whose entries are already used.
+    fn new(
+        plan: &mut Plan,
+        (outline, start): (Outline, FirstState),
+        stepper: Box<dyn Stepping>,
+        (scheme, in_use, needs): (Scheme, Scheme, Needs),
+        step: f64,
+    ) -> Self {
+        let dimension = plan.dimension();
+        let Outline {
+            masses,
+            places,
+            shapes,
+            mut layout,
+            conduction,
+            ..
+        } = outline;
+        let FirstState {
+            effort,
+            state,
+            next,
+        } = start;
+        let loads = mem::replace(&mut plan.loads, SceneLoads::none(dimension));
         layout.forget_places();
         let moved = loads.moved_in_time();
-        let gravity = length(loads.gravity.as_slice());
+        let gravity = length(&loads.gravity);
         let before = (&*state, gravity, &moved[..]);
-        let least = LeastScales::new(stepper.all(), (&masses, &conduction), before);
+        let elements = |state: &State, see: &mut dyn FnMut(Stiffness<'_>)| {
+            stepper.stiffness(state, &mut |_, point| see(point));
+        };
+        let least = LeastScales::new(&elements, (&masses, &conduction), before);
         let next = match next {
             None => state.clone(),
             Some(mut next) => {
@@ -232,11 +282,12 @@ impl<const D: usize> Simulation<D> {
                 next
             }
         };
-        Ok(slot.insert(Self {
-            scene: scene.lineage.clone(),
+        Self {
+            dimension,
+            scene: plan.lineage.clone(),
             scheme,
             in_use,
-            automatic: Automatic::new(needs, scene.memory_limit),
+            automatic: Automatic::new(needs, plan.memory_limit),
             step,
             masses,
             places,
@@ -252,7 +303,7 @@ impl<const D: usize> Simulation<D> {
             next,
             state,
             has_stepped: false,
-            start: scene.start,
+            start: plan.start,
             homes: Vec::new(),
             #[cfg(feature = "gradients")]
             history: None,
@@ -263,7 +314,65 @@ impl<const D: usize> Simulation<D> {
             corrections: Corrections::none(),
             unresolved: Unresolved::none(),
             report: StepReport::none(),
-        }))
+        }
+    }
+
+    /// The present time, s.
+    fn time(&self) -> f64 {
+        self.state.time.value
+    }
+
+    /// The ledger of a state but for its linear momentum, whatever steps led there.
+    fn ledger_in(&self, state: &State) -> Ledger<0> {
+        let mut totals = ElementTotals::new();
+        self.stepper.add_totals(state, &mut totals);
+        let (reservoirs, gravity) = (&self.conduction.reservoirs, &self.loads.gravity);
+        Ledger::of(state, &self.masses, &totals, reservoirs, gravity)
+    }
+
+    /// All elements in the order of creation: group and place, and the capabilities of the group.
+    fn all_places(&self) -> impl Iterator<Item = ([usize; 2], Shape)> {
+        let places = self.places.iter().map(|&place| indices(place));
+        places.map(|place| (place, self.shapes[place[0]]))
+    }
+
+    /// An error unless an element is a spring of this scene.
+    fn expect_spring(&self, element: Element, quantity: &'static str) -> Result<(), SceneError> {
+        self.expect_own(&element)?;
+        if self.shape(element).is_spring {
+            return Ok(());
+        }
+        Err(SceneError::NotASpring { element, quantity })
+    }
+
+    fn is_oven(&self, reservoir: usize) -> bool {
+        let mut ovens = self.loads.ovens.iter();
+        ovens.any(|&(oven, _)| oven == reservoir)
+    }
+
+    /// The capabilities of an element of this scene.
+    fn shape(&self, element: Element) -> Shape {
+        self.shapes[self.place(element)[0]]
+    }
+
+    /// The group of an element of this scene, and its index there.
+    fn place(&self, element: Element) -> [usize; 2] {
+        indices(self.places[element.index()])
+    }
+
+    /// The state indices of an element of this scene.
+    fn slots(&self, element: Element) -> Slots {
+        self.stepper.slots(self.place(element))
+    }
+
+    fn thermal_slot(&self, element: Element) -> Result<usize, SceneError> {
+        self.expect_own(&element)?;
+        let slot = self.slots(element).thermal;
+        slot.ok_or(SceneError::NotThermal { element })
+    }
+
+    fn expect_own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {
+        self.scene.expect(handle)
     }
 
     /// The error of a step of this size, with the iterations so far.

@@ -59,14 +59,14 @@ impl<const D: usize> VtkSeries<D> {
         const {
             assert!(D <= 3, "ParaView shows at most three dimensions");
         }
-        let positions = scene.nodes.iter().map(|node| node.position);
+        let positions = scene.plan.entries.positions.chunks_exact(D);
         Self {
             folder: folder.into(),
             name: name.into(),
-            nodes: (0..scene.nodes.len()).map(|at| scene.node_at(at)).collect(),
-            reference: positions
-                .map(|position| in_space(position.as_slice()))
+            nodes: (0..scene.plan.entries.nodes.len())
+                .map(|at| scene.plan.node_at(at))
                 .collect(),
+            reference: positions.map(in_space).collect(),
             cells: cells(scene),
             times: Vec::new(),
             has_claimed: false,

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use nalgebra::SVector;
-
 use super::Scene;
 use super::entry::infinite;
 use crate::element::handle::{Element, Node};
@@ -11,7 +9,7 @@ use crate::element::kinematics::Shape;
 use crate::element::loads::PushLine;
 use crate::scene::bulk::Body;
 use crate::scene::error::{RocketError, SceneError};
-use crate::scene::loads::{Course, Rocket};
+use crate::scene::loads::{Course, OfTime, Rocket};
 use crate::scene::solid_error::SolidError;
 use eem_material::number::scalar::is_positive;
 use eem_mesh::Face;
@@ -21,16 +19,16 @@ impl<const D: usize> Scene<D> {
     /// Gravity: the acceleration of all masses, m/s²; zero by default. Its potential energy `−Σ m g·q` is part of
     /// the ledger.
     pub fn set_gravity(&mut self, gravity: [f64; D]) {
-        self.loads.gravity = gravity.into();
+        self.plan.loads.gravity = Box::new(gravity);
     }
 
     /// A constant force on a mass, N. The ledger counts its work.
     pub fn dead_load(&mut self, node: Node, force: [f64; D]) {
         if let Some((axis, value)) = infinite(&force).next() {
-            self.refuse(SceneError::DeadLoad { node, axis, value });
-        } else if self.expect_kind(node, true, "a force") {
-            let force = Course::Constant(force.into());
-            self.loads.forces.push((node, force));
+            self.plan.refuse(SceneError::DeadLoad { node, axis, value });
+        } else if self.plan.expect_kind(node, true, "a force") {
+            let force = Box::new(force) as _;
+            self.plan.loads.forces.push((node, Course::Constant(force)));
         }
     }
 
@@ -39,9 +37,9 @@ impl<const D: usize> Scene<D> {
     /// Several forces on one mass add up. A step uses the force at its middle. Schemes with stages also use it at
     /// the times of the stages.
     pub fn force(&mut self, node: Node, force: impl Fn(f64) -> [f64; D] + Send + Sync + 'static) {
-        if self.expect_kind(node, true, "a force") {
-            let force = Arc::new(move |time| SVector::from(force(time)));
-            self.loads.forces.push((node, Course::Function(force)));
+        if self.plan.expect_kind(node, true, "a force") {
+            let force = Course::Function(of_time(force));
+            self.plan.loads.forces.push((node, force));
         }
     }
 
@@ -77,15 +75,15 @@ impl<const D: usize> Scene<D> {
         [tail, head]: [Node; 2],
         thrust: impl Fn(f64) -> f64 + Send + Sync + 'static,
     ) {
-        let own = self.expect_kind(node, true, "a rocket")
-            & self.expect_own(&tail)
-            & self.expect_own(&head);
+        let own = self.plan.expect_kind(node, true, "a rocket")
+            & self.plan.expect_own(&tail)
+            & self.plan.expect_own(&head);
         if own && tail == head {
-            self.refuse(RocketError::NoLine { node, end: tail });
+            self.plan.refuse(RocketError::NoLine { node, end: tail });
         } else if own {
             let line = PushLine { node, tail, head };
             let thrust = Arc::new(thrust);
-            self.loads.rockets.push(Rocket { line, thrust });
+            self.plan.loads.rockets.push(Rocket { line, thrust });
         }
     }
 
@@ -105,11 +103,9 @@ impl<const D: usize> Scene<D> {
         anchor: Node,
         position: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
     ) {
-        if self.expect_kind(anchor, false, "a prescribed motion") {
-            let position = Arc::new(move |time| SVector::from(position(time)));
-            self.loads
-                .motions
-                .push((anchor, Course::Function(position)));
+        if self.plan.expect_kind(anchor, false, "a prescribed motion") {
+            let position = Course::Function(of_time(position));
+            self.plan.loads.motions.push((anchor, position));
         }
     }
 
@@ -136,12 +132,12 @@ impl<const D: usize> Scene<D> {
     pub fn stop_at(&mut self, times: impl IntoIterator<Item = f64>) {
         for time in times {
             if !time.is_finite() {
-                self.refuse(SceneError::StopTime { time });
+                self.plan.refuse(SceneError::StopTime { time });
                 return;
             }
-            self.loads.stops.push(time);
+            self.plan.loads.stops.push(time);
         }
-        let stops = &mut self.loads.stops;
+        let stops = &mut self.plan.loads.stops;
         stops.sort_by(f64::total_cmp);
         stops.dedup();
     }
@@ -170,9 +166,9 @@ impl<const D: usize> Scene<D> {
     /// ```
     pub fn shortest_load(&mut self, duration: f64) {
         if is_positive(duration) {
-            self.loads.shortest = Some(duration);
+            self.plan.loads.shortest = Some(duration);
         } else {
-            self.refuse(SceneError::ShortestLoad { duration });
+            self.plan.refuse(SceneError::ShortestLoad { duration });
         }
     }
 
@@ -198,8 +194,8 @@ impl<const D: usize> Scene<D> {
 
     /// Sets the initial momentum of a mass, kg m/s, instead of its velocity.
     pub fn set_momentum(&mut self, node: Node, momentum: [f64; D]) {
-        if self.expect_kind(node, true, "a momentum") {
-            self.nodes[node.index].momentum = Some(momentum.into());
+        if self.plan.expect_kind(node, true, "a momentum") {
+            self.plan.entries.nodes[node.index].momentum = Some(Box::new(momentum));
         }
     }
 
@@ -214,9 +210,9 @@ impl<const D: usize> Scene<D> {
         element: Element,
         temperature: impl Fn(f64) -> f64 + Send + Sync + 'static,
     ) {
-        if self.expect_own(&element) {
+        if self.plan.expect_own(&element) {
             let temperature = Course::Function(Arc::new(temperature) as _);
-            self.loads.temperatures.push((element, temperature));
+            self.plan.loads.temperatures.push((element, temperature));
         }
     }
 
@@ -243,20 +239,10 @@ impl<const D: usize> Scene<D> {
     /// ```
     pub fn hold_temperature(&mut self, element: Element, temperature: f64) {
         self.set_temperature(element, temperature);
-        if self.expect_own(&element) {
+        if self.plan.expect_own(&element) {
             let temperature = Course::Set(temperature);
-            self.loads.temperatures.push((element, temperature));
+            self.plan.loads.temperatures.push((element, temperature));
         }
-    }
-
-    /// Whether a node is of this scene, and a mass or an anchor as required; if not, an error is recorded.
-    pub(super) fn expect_kind(&mut self, node: Node, mass: bool, quantity: &'static str) -> bool {
-        if !self.expect_own(&node) {
-            return false;
-        }
-        let is_mass = self.nodes[node.index].mass.is_some();
-        let found = SceneError::expect_kind(node, [is_mass, mass], quantity);
-        found.map_err(|error| self.refuse(error)).is_ok()
     }
 }
 
@@ -292,7 +278,7 @@ impl<const D: usize> Scene<D> {
     ) {
         if !body.mesh().has(face) {
             let element = body.first();
-            return self.refuse(SolidError::ForeignFace { element });
+            return self.plan.refuse(SolidError::ForeignFace { element });
         }
         let shares = body.mesh().areas(face).into_iter();
         let shares = shares.map(|(node, area)| (body.nodes()[node], body.thickness * area));
@@ -331,11 +317,16 @@ impl<const D: usize> Scene<D> {
     /// Loads the nodes, except anchors, with their shares of the area or volume.
     fn distribute(&mut self, shares: Vec<(Node, f64)>, density: &Density<D>) {
         for (node, share) in shares {
-            let own = self.expect_own(&node);
-            if own && self.nodes[node.index].mass.is_some() {
+            let own = self.plan.expect_own(&node);
+            if own && self.plan.entries.nodes[node.index].mass.is_some() {
                 let density = Arc::clone(density);
                 self.force(node, move |time| density(time).map(|force| share * force));
             }
         }
     }
+}
+
+/// A function of time that writes its components.
+fn of_time<const D: usize>(of: impl Fn(f64) -> [f64; D] + Send + Sync + 'static) -> OfTime {
+    Arc::new(move |time, components| components.copy_from_slice(&of(time)))
 }

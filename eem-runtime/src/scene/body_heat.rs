@@ -53,25 +53,25 @@ impl<const D: usize> Scene<D> {
     /// [`SolidError::NoConductivity`].
     pub fn conduct_between<H: Shape<D>>(&mut self, first: &Body<H, D>, second: &Body<H, D>) {
         let elements = [first.first(), second.first()];
-        if !elements.iter().all(|element| self.expect_own(element)) {
+        if !elements.iter().all(|element| self.plan.expect_own(element)) {
             return;
         }
         let [element, other] = elements;
         if element == other {
-            return self.refuse(SceneError::SelfConduction { element });
+            return self.plan.refuse(SceneError::SelfConduction { element });
         }
         let (Some(one), Some(other)) = (first.conductivity, second.conductivity) else {
             let is_insulated = [first.conductivity.is_none(), second.conductivity.is_none()];
             for (element, is_insulated) in elements.into_iter().zip(is_insulated) {
                 if is_insulated {
-                    self.refuse(SolidError::NoConductivity { element });
+                    self.plan.refuse(SolidError::NoConductivity { element });
                 }
             }
             return;
         };
         let sides = shared_sides(first, second);
         if sides.is_empty() {
-            self.refuse(SolidError::NoSharedFace { elements });
+            self.plan.refuse(SolidError::NoSharedFace { elements });
         }
         for [near, far] in sides {
             let near = first.mesh().sub_faces_of(near);
@@ -127,7 +127,7 @@ impl<const D: usize> Scene<D> {
     ) {
         if !is_positive(film) {
             let error = SolidError::section(body.first(), "film coefficient", film, "W/(m^2 K)");
-            return self.refuse(error);
+            return self.plan.refuse(error);
         }
         self.connect(body, face, reservoir, |area, t| {
             (film * area * t) / (film * area + t)
@@ -161,10 +161,10 @@ impl<const D: usize> Scene<D> {
     ) {
         let element = body.first();
         let Some(conductivity) = body.conductivity else {
-            return self.refuse(SolidError::NoConductivity { element });
+            return self.plan.refuse(SolidError::NoConductivity { element });
         };
         if !body.mesh().has(face) {
-            return self.refuse(SolidError::ForeignFace { element });
+            return self.plan.refuse(SolidError::ForeignFace { element });
         }
         for face in body.mesh().outside(face) {
             let area = body.thickness * face.area;
@@ -182,11 +182,11 @@ impl<const D: usize> Scene<D> {
         };
         if !is_positive(conductivity) {
             let error = SolidError::section(element, "conductivity", conductivity, "W/(m K)");
-            return self.refuse(error);
+            return self.plan.refuse(error);
         }
         let (links, skewness) = body.mesh().network();
         if skewness.is_too_much() && !allow_skew_cells {
-            self.refuse(SolidError::SkewCells {
+            self.plan.refuse(SolidError::SkewCells {
                 element,
                 skew: skewness.skew,
                 faces: skewness.faces,

@@ -3,31 +3,31 @@
 
 use core::mem;
 
-use super::Scene;
+use super::plan::{Groups, Plan};
 use crate::element::conduction::Conductor;
 use crate::element::error::StateError;
 use crate::element::handle::{Element, HeatPartner, Node};
 use crate::element::layout::Shape;
 use crate::element::loads::PushLine;
-use crate::scene::entry::{ElementEntry, INVALID, NodeEntry, infinite};
+use crate::scene::entry::{ElementEntry, INVALID, infinite};
 use crate::scene::error::{RocketError, SceneError};
 use crate::scene::loads::{MOTION_ROUNDINGS, extent};
 use eem_material::number::scalar::{Scalar, is_positive};
 
-impl<const D: usize> Scene<D> {
+impl Plan {
     /// All errors; those of the initial state only if all numbers are valid by themselves.
-    pub(crate) fn check(&self) -> Vec<SceneError> {
+    pub(crate) fn check(&self, groups: &dyn Groups) -> Vec<SceneError> {
         let mut errors = self.errors.clone();
         // Nodes of an invalid solid are not checked: their errors would follow from its own.
-        let invalid = self.elements.iter();
+        let invalid = self.entries.elements.iter();
         let invalid = invalid.filter(|entry| entry.group == INVALID);
         let is_invalid = self.marked(invalid.flat_map(|entry| &entry.nodes));
-        for (index, entry) in self.nodes.iter().enumerate() {
+        for index in 0..self.entries.nodes.len() {
             if is_invalid.get(index) != Some(&true) {
-                check_node(self.node_at(index), entry, &mut errors);
+                self.check_node(self.node_at(index), &mut errors);
             }
         }
-        let nodes = self.nodes.iter().enumerate();
+        let nodes = self.entries.nodes.iter().enumerate();
         for ((index, entry), is_coupled) in nodes.zip(self.are_coupled()) {
             if is_coupled && entry.momentum.is_some() {
                 errors.push(SceneError::NodeOfSolid {
@@ -46,36 +46,39 @@ impl<const D: usize> Scene<D> {
                 });
             }
         }
-        for (index, entry) in self.elements.iter().enumerate() {
-            let Some(group) = self.groups.get(entry.group) else {
+        for (index, entry) in self.entries.elements.iter().enumerate() {
+            let Some(shape) = groups.shape(entry.group) else {
                 continue;
             };
-            let element = self.element_at(index);
-            if let Some((parameter, value)) = group.infinite_parameter(entry.place) {
+            let element = self.element_at(index, groups);
+            let infinite = groups.infinite_parameter(entry.group, entry.place);
+            if let Some((parameter, value)) = infinite {
                 errors.push(SceneError::Parameter {
                     element,
                     parameter,
                     value,
                 });
             }
-            check_element(element, entry, group.shape(), &mut errors);
+            check_element(element, entry, shape, &mut errors);
         }
-        self.check_loads(&mut errors);
+        self.check_loads(groups, &mut errors);
         self.check_rockets(&mut errors);
-        self.check_conductors(&mut errors);
+        self.check_conductors(groups, &mut errors);
         if !self.start.is_finite() {
             let value = self.start;
             errors.push(SceneError::StartTime { value });
         }
         if errors.is_empty() {
-            for (index, entry) in self.nodes.iter().enumerate() {
+            let mut momentum = vec![0.0; self.dimension()];
+            for (index, entry) in self.entries.nodes.iter().enumerate() {
                 if let Some(mass) = entry.mass {
-                    let (node, momentum) = (self.node_at(index), entry.start_momentum(mass));
-                    let vectors = [momentum.as_slice(), self.loads.gravity.as_slice()];
+                    self.find_momentum(index, mass, &mut momentum);
+                    let (node, vectors) =
+                        (self.node_at(index), [&momentum[..], &self.loads.gravity]);
                     errors.extend(check_products((node, mass), vectors).err());
                 }
             }
-            let flows = check_heat_flows(&self.elements, &self.conductors, &reservoirs);
+            let flows = check_heat_flows(&self.entries.elements, &self.conductors, &reservoirs);
             errors.extend(flows.err());
             self.check_motions(&mut errors);
             self.check_thermostats(&mut errors);
@@ -83,8 +86,30 @@ impl<const D: usize> Scene<D> {
         errors
     }
 
-    fn check_loads(&self, errors: &mut Vec<SceneError>) {
-        let gravity = infinite(self.loads.gravity.as_slice());
+    fn check_node(&self, node: Node, errors: &mut Vec<SceneError>) {
+        errors.extend(self.check_position(node).err());
+        let entry = &self.entries.nodes[node.index];
+        if entry.momentum.is_none() {
+            for (axis, value) in infinite(self.velocity(node.index)) {
+                errors.push(SceneError::Velocity { node, axis, value });
+            }
+        }
+        if let Some(mass) = entry.mass.filter(|&mass| !is_positive(mass)) {
+            let value = mass;
+            errors.push(SceneError::Mass { node, value });
+        }
+    }
+
+    /// An error unless the position of a node is finite.
+    pub(super) fn check_position(&self, node: Node) -> Result<(), SceneError> {
+        match infinite(self.position(node.index)).next() {
+            Some((axis, value)) => Err(SceneError::Position { node, axis, value }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_loads(&self, groups: &dyn Groups, errors: &mut Vec<SceneError>) {
+        let gravity = infinite(&self.loads.gravity);
         errors.extend(gravity.map(|(axis, value)| SceneError::Gravity { axis, value }));
         let twice = |handle: &dyn core::fmt::Display, quantity| SceneError::PrescribedTwice {
             handle: handle.to_string(),
@@ -92,15 +117,15 @@ impl<const D: usize> Scene<D> {
         };
         let mut are_prescribed = Vec::new();
         for (element, _) in &self.loads.temperatures {
-            self.check_thermal(*element, errors);
-            are_prescribed.resize(self.elements.len(), false);
+            self.check_thermal(*element, groups, errors);
+            are_prescribed.resize(self.entries.elements.len(), false);
             if mem::replace(&mut are_prescribed[element.index()], true) {
                 errors.push(twice(element, "the temperature"));
             }
         }
         let mut are_moved = Vec::new();
         for (anchor, _) in &self.loads.motions {
-            are_moved.resize(self.nodes.len(), false);
+            are_moved.resize(self.entries.nodes.len(), false);
             if mem::replace(&mut are_moved[anchor.index], true) {
                 errors.push(twice(anchor, "the motion"));
             }
@@ -110,26 +135,27 @@ impl<const D: usize> Scene<D> {
     fn check_rockets(&self, errors: &mut Vec<SceneError>) {
         let moves = |node: Node| {
             let mut motions = self.loads.motions.iter();
-            self.nodes[node.index].mass.is_some() || motions.any(|&(moved, _)| moved == node)
+            self.entries.nodes[node.index].mass.is_some()
+                || motions.any(|&(moved, _)| moved == node)
         };
         for rocket in &self.loads.rockets {
             let PushLine { node, tail, head } = rocket.line;
-            let [from, to] = [&self.nodes[tail.index], &self.nodes[head.index]];
-            if from.position == to.position && !moves(tail) && !moves(head) {
+            let [from, to] = [tail, head].map(|end| self.position(end.index));
+            if from == to && !moves(tail) && !moves(head) {
                 errors.push(RocketError::NoLength { node, tail, head }.into());
             }
         }
     }
 
-    fn check_conductors(&self, errors: &mut Vec<SceneError>) {
+    fn check_conductors(&self, groups: &dyn Groups, errors: &mut Vec<SceneError>) {
         for conductor in &self.conductors {
             let (element, partner) = (conductor.element, conductor.partner);
-            self.check_thermal(element, errors);
+            self.check_thermal(element, groups, errors);
             if let HeatPartner::Element(other) = partner {
                 if other == element {
                     errors.push(SceneError::SelfConduction { element });
                 } else {
-                    self.check_thermal(other, errors);
+                    self.check_thermal(other, groups, errors);
                 }
             }
             let value = conductor.conductance;
@@ -143,30 +169,28 @@ impl<const D: usize> Scene<D> {
         }
     }
 
-    fn check_thermal(&self, element: Element, errors: &mut Vec<SceneError>) {
-        let group = self.groups.get(self.elements[element.index()].group);
+    fn check_thermal(&self, element: Element, groups: &dyn Groups, errors: &mut Vec<SceneError>) {
+        let shape = groups.shape(self.entries.elements[element.index()].group);
         let error = SceneError::NotThermal { element };
-        if group.is_some_and(|group| !group.shape().thermal) && !errors.contains(&error) {
+        if shape.is_some_and(|shape| !shape.thermal) && !errors.contains(&error) {
             errors.push(error);
         }
     }
 
     /// Motions of anchors must begin where the anchors were created.
     fn check_motions(&self, errors: &mut Vec<SceneError>) {
-        let mut scale = 0.0;
-        for node in &self.nodes {
-            scale = Scalar::maximum(scale, extent(node.position.as_slice()));
-        }
+        let scale = extent(&self.entries.positions);
+        let mut place = vec![0.0; self.dimension()];
         for (anchor, motion) in &self.loads.motions {
-            let created = self.nodes[anchor.index].position;
-            let prescribed = motion.position(self.start, &created.into(), 0.0);
-            for axis in 0..D {
-                if !is_rounding(prescribed[axis] - created[axis], scale) {
+            let created = self.position(anchor.index);
+            motion.find_position(self.start, created, 0.0, &mut place);
+            for (axis, (&prescribed, &created)) in place.iter().zip(created).enumerate() {
+                if !is_rounding(prescribed - created, scale) {
                     errors.push(SceneError::AnchorJump {
                         node: *anchor,
                         axis,
-                        created: created[axis],
-                        prescribed: prescribed[axis],
+                        created,
+                        prescribed,
                     });
                 }
             }
@@ -176,7 +200,7 @@ impl<const D: usize> Scene<D> {
     /// Thermostats must begin at the initial temperature.
     fn check_thermostats(&self, errors: &mut Vec<SceneError>) {
         for (element, temperature) in &self.loads.temperatures {
-            let Some(initial) = self.elements[element.index()].temperature else {
+            let Some(initial) = self.entries.elements[element.index()].temperature else {
                 continue;
             };
             let prescribed = temperature.at(self.start, initial, 0.0);
@@ -188,30 +212,6 @@ impl<const D: usize> Scene<D> {
                 });
             }
         }
-    }
-}
-
-fn check_node<const D: usize>(node: Node, entry: &NodeEntry<D>, errors: &mut Vec<SceneError>) {
-    errors.extend(check_position(node, entry).err());
-    if entry.momentum.is_none() {
-        for (axis, value) in infinite(entry.velocity.as_slice()) {
-            errors.push(SceneError::Velocity { node, axis, value });
-        }
-    }
-    if let Some(mass) = entry.mass.filter(|&mass| !is_positive(mass)) {
-        let value = mass;
-        errors.push(SceneError::Mass { node, value });
-    }
-}
-
-/// An error unless the position of a node is finite.
-pub(super) fn check_position<const D: usize>(
-    node: Node,
-    entry: &NodeEntry<D>,
-) -> Result<(), SceneError> {
-    match infinite(entry.position.as_slice()).next() {
-        Some((axis, value)) => Err(SceneError::Position { node, axis, value }),
-        None => Ok(()),
     }
 }
 

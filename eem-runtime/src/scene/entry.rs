@@ -1,34 +1,17 @@
 //! The nodes and elements of a scene.
 
-use nalgebra::SVector;
-
-use crate::algebra::vector;
-use crate::element::ends::Ends;
 use crate::element::layout::{Layout, Shape};
 use crate::element::masses::Masses;
-use eem_material::number::compact::compact;
 
 /// A node: an anchor or a mass.
 #[derive(Clone, Debug)]
-pub(crate) struct NodeEntry<const D: usize> {
+pub(crate) struct NodeEntry {
     /// `None` for an anchor.
     pub(crate) mass: Option<f64>,
     /// The mass of solids at an anchor, kg.
     pub(crate) held: f64,
-    pub(crate) position: SVector<f64, D>,
-    pub(crate) velocity: SVector<f64, D>,
     /// The initial momentum, if it is given instead of the velocity.
-    pub(crate) momentum: Option<SVector<f64, D>>,
-}
-
-impl<const D: usize> NodeEntry<D> {
-    /// The initial momentum of a node of this mass, kg m/s.
-    pub(crate) fn start_momentum(&self, mass: f64) -> SVector<f64, D> {
-        match self.momentum {
-            Some(momentum) => momentum,
-            None => vector(|axis| mass * self.velocity[axis]).into(),
-        }
-    }
+    pub(crate) momentum: Option<Box<[f64]>>,
 }
 
 /// The components of a vector that are not finite, with their axes.
@@ -52,13 +35,6 @@ pub(crate) struct ElementEntry {
     pub(crate) place: usize,
 }
 
-/// The group of each element, and its index there.
-pub(super) fn places(elements: &[ElementEntry]) -> Vec<[u32; 2]> {
-    let places = elements.iter();
-    let places = places.map(|entry| [compact(entry.group), compact(entry.place)]);
-    places.collect()
-}
-
 /// The numbering of a scene of this dimension without interface temperatures, given the places of its elements and the
 /// capabilities of each group.
 pub(crate) fn layout(
@@ -69,13 +45,4 @@ pub(crate) fn layout(
     let is_mass = masses.iter().map(|mass| mass.is_some());
     let shapes = places.iter().map(|&[group, _]| shapes[group as usize]);
     Layout::new(dimension, is_mass, shapes)
-}
-
-/// The nodes of elements.
-pub(super) fn ends(elements: &[ElementEntry]) -> Ends {
-    let mut ends = Ends::none();
-    for entry in elements {
-        ends.push(entry.nodes.iter().map(|&node| compact(node)));
-    }
-    ends
 }

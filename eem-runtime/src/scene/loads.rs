@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::SVector;
-
-use crate::algebra::{ascending, vector};
+use crate::algebra::ascending;
 use crate::element::handle::{Element, Node};
 use crate::element::loads::PushLine;
 use eem_material::number::scalar::Scalar;
@@ -31,19 +29,14 @@ pub(crate) fn extent(coordinates: &[f64]) -> f64 {
     })
 }
 
-/// A vector (force in N, position in m) as a function of time in s.
-pub(crate) type OfTime<const D: usize> = Arc<dyn Fn(f64) -> SVector<f64, D> + Send + Sync>;
+/// A vector (force in N, position in m) as a function of time in s, which writes its components.
+pub(crate) type OfTime = Arc<dyn Fn(f64, &mut [f64]) + Send + Sync>;
 
 /// A scalar (temperature in K, thrust in N) as a function of time in s.
 pub(crate) type ScalarOfTime = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
 
 /// A vector or a scalar as a function of time in s, which writes its components.
 pub(crate) type Written<'a> = &'a dyn Fn(f64, &mut [f64]);
-
-/// A vector as a function that writes its components.
-pub(crate) fn written<const D: usize>(of: &OfTime<D>) -> impl Fn(f64, &mut [f64]) {
-    |time, components| components.copy_from_slice(of(time).as_slice())
-}
 
 /// A scalar as a function that writes one component.
 pub(crate) fn written_scalar(of: &ScalarOfTime) -> impl Fn(f64, &mut [f64]) {
@@ -82,18 +75,34 @@ impl<F, T> Course<F, T> {
     }
 }
 
-impl<const D: usize> Course<OfTime<D>, SVector<f64, D>> {
-    /// The position of an anchor at a time, m, `elapsed` seconds after it was at `from`.
-    pub(crate) fn position(&self, time: f64, from: &[f64; D], elapsed: f64) -> SVector<f64, D> {
+impl VectorCourse {
+    /// Finds the position of an anchor at a time, m, `elapsed` seconds after it was at `from`.
+    pub(crate) fn find_position(&self, time: f64, from: &[f64], elapsed: f64, place: &mut [f64]) {
         match self {
-            Self::Function(of) => of(time),
-            Self::Constant(position) => *position,
-            Self::Set(velocity) => vector(|axis| from[axis] + elapsed * velocity[axis]).into(),
+            Self::Function(of) => of(time, place),
+            Self::Constant(position) => place.copy_from_slice(position),
+            Self::Set(velocity) => {
+                for (axis, place) in place.iter_mut().enumerate() {
+                    *place = from[axis] + elapsed * velocity[axis];
+                }
+            }
         }
+    }
+
+    /// The same in a space of known dimension.
+    pub(crate) fn position<const D: usize>(
+        &self,
+        time: f64,
+        from: &[f64; D],
+        elapsed: f64,
+    ) -> [f64; D] {
+        let mut place = [0.0; D];
+        self.find_position(time, from, elapsed, &mut place);
+        place
     }
 }
 
-impl Course<ScalarOfTime, f64> {
+impl TemperatureCourse {
     /// The value at a time, at this share of a step that begins with the value `from`.
     pub(crate) fn at(&self, time: f64, from: f64, share: f64) -> f64 {
         match self {
@@ -105,7 +114,7 @@ impl Course<ScalarOfTime, f64> {
 }
 
 /// The course of a force or of an anchor.
-pub(crate) type VectorCourse<const D: usize> = Course<OfTime<D>, SVector<f64, D>>;
+pub(crate) type VectorCourse = Course<OfTime, Box<[f64]>>;
 
 /// The course of a temperature.
 pub(crate) type TemperatureCourse = Course<ScalarOfTime, f64>;
@@ -114,17 +123,20 @@ pub(crate) type TemperatureCourse = Course<ScalarOfTime, f64>;
 #[derive(Clone)]
 pub(crate) struct Rocket {
     pub(crate) line: PushLine,
-    pub(crate) thrust: Arc<dyn Fn(f64) -> f64 + Send + Sync>,
+    pub(crate) thrust: ScalarOfTime,
 }
+
+/// The loads of a scene of some dimension. They do not depend on it.
+pub(crate) type Loads<const D: usize> = SceneLoads;
 
 /// All loads of a scene, as given.
 #[derive(Clone)]
-pub(crate) struct Loads<const D: usize> {
+pub(crate) struct SceneLoads {
     /// Acceleration of free fall, m/s².
-    pub(crate) gravity: SVector<f64, D>,
-    pub(crate) forces: Vec<(Node, VectorCourse<D>)>,
+    pub(crate) gravity: Box<[f64]>,
+    pub(crate) forces: Vec<(Node, VectorCourse)>,
     pub(crate) rockets: Vec<Rocket>,
-    pub(crate) motions: Vec<(Node, VectorCourse<D>)>,
+    pub(crate) motions: Vec<(Node, VectorCourse)>,
     pub(crate) temperatures: Vec<(Element, TemperatureCourse)>,
     /// Indices of reservoirs whose temperature is a function of time.
     pub(crate) ovens: Vec<(usize, ScalarOfTime)>,
@@ -134,11 +146,11 @@ pub(crate) struct Loads<const D: usize> {
     pub(crate) shortest: Option<f64>,
 }
 
-impl<const D: usize> Loads<D> {
-    /// No loads.
-    pub(crate) fn none() -> Self {
+impl SceneLoads {
+    /// No loads in a space of this dimension.
+    pub(crate) fn none(dimension: usize) -> Self {
         Self {
-            gravity: SVector::from_element(0.0),
+            gravity: vec![0.0; dimension].into(),
             forces: Vec::new(),
             rockets: Vec::new(),
             motions: Vec::new(),
@@ -147,6 +159,10 @@ impl<const D: usize> Loads<D> {
             stops: Vec::new(),
             shortest: None,
         }
+    }
+
+    pub(crate) fn dimension(&self) -> usize {
+        self.gravity.len()
     }
 
     pub(crate) fn are_none(&self) -> bool {
@@ -210,7 +226,7 @@ pub(crate) fn inside(stops: &[f64], [start, step]: [f64; 2], time: f64) -> f64 {
     Scalar::minimum(Scalar::maximum(time, first), last)
 }
 
-impl<const D: usize> core::fmt::Debug for Loads<D> {
+impl core::fmt::Debug for SceneLoads {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Loads")
             .field("gravity", &self.gravity)

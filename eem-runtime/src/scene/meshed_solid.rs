@@ -54,16 +54,17 @@ impl<const D: usize> Scene<D> {
         H: Shape<D>,
         M: FreeEnergy<f64> + StrainEnergy<N> + Send + Sync + 'static,
     {
-        let first = self.next_element(&model);
+        let first = self.plan.next_element(&model);
         let nodes = self.nodes_of_mesh(mesh, bulk, first);
         // One error for the solid, not one per cell.
         let measures = bulk.measures(model.strains(), first).map_err(|error| {
-            self.refuse(error);
+            self.plan.refuse(error);
             None
         });
         let conductivity = bulk.conductivity.filter(|_| M::THERMAL);
         if conductivity.is_some() != bulk.conductivity.is_some() {
-            self.refuse(SolidError::NoTemperature { element: first });
+            self.plan
+                .refuse(SolidError::NoTemperature { element: first });
         }
         let mut points = Vec::with_capacity(mesh.cells().len() * H::PerPoint::<Element>::LEN);
         for cell in mesh.cells() {
@@ -97,7 +98,7 @@ impl<const D: usize> Scene<D> {
             Ok(shared)
         });
         let shared = shared.unwrap_or_else(|error| {
-            self.refuse(error);
+            self.plan.refuse(error);
             vec![None; mesh.nodes().len()]
         });
         let places = mesh.nodes().iter().zip(shared);
@@ -127,7 +128,7 @@ impl<const D: usize> Scene<D> {
         if joined.is_empty() {
             return Ok(());
         }
-        for (index, entry) in self.elements.iter().enumerate() {
+        for (index, entry) in self.plan.entries.elements.iter().enumerate() {
             let nodes = entry.nodes.iter().copied().collect();
             let cell = joined.get(&nodes).filter(|_| entry.group != INVALID);
             if let Some(&cell) = cell {
@@ -151,10 +152,9 @@ impl<const D: usize> Scene<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn set_velocity(&mut self, node: Node, velocity: [f64; D]) {
-        if self.expect_kind(node, true, "a velocity") {
-            let entry = &mut self.nodes[node.index];
-            entry.velocity = velocity.into();
-            entry.momentum = None;
+        if self.plan.expect_kind(node, true, "a velocity") {
+            self.plan.entries.nodes[node.index].momentum = None;
+            self.plan.entries.velocities[node.index * D..][..D].copy_from_slice(&velocity);
         }
     }
 
@@ -180,22 +180,22 @@ impl<const D: usize> Scene<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn fix(&mut self, node: Node) {
-        if self.expect_own(&node) {
-            let loads = &self.loads;
+        if self.plan.expect_own(&node) {
+            let loads = &self.plan.loads;
             let is_pushed = loads.rockets.iter().any(|rocket| rocket.line.node == node);
             let is_loaded = loads.forces.iter().any(|&(loaded, _)| loaded == node);
             let given = [(is_pushed, "a rocket"), (is_loaded, "a force")];
             for (_, quantity) in given.into_iter().filter(|&(is_given, _)| is_given) {
-                self.refuse(SceneError::WrongKind {
+                self.plan.refuse(SceneError::WrongKind {
                     node,
                     quantity,
                     kind: "fixed later; fix nodes before faces and bodies are loaded, which leaves them out",
                 });
             }
-            let entry = &mut self.nodes[node.index];
+            let entry = &mut self.plan.entries.nodes[node.index];
             entry.held += entry.mass.take().unwrap_or(0.0);
             entry.momentum = None;
-            entry.velocity = [0.0; D].into();
+            self.plan.entries.velocities[node.index * D..][..D].fill(0.0);
         }
     }
 }

@@ -31,12 +31,12 @@ impl<const D: usize> Scene<D> {
 impl<const D: usize> Scene<D> {
     /// A node that does not move; position in m.
     pub fn anchor(&mut self, position: [f64; D]) -> Node {
-        self.push_node(None, position, [0.0; D])
+        self.plan.push_node(None, &position, &[0.0; D])
     }
 
     /// A point mass (kg) with its initial position (m) and velocity (m/s).
     pub fn mass(&mut self, mass: f64, position: [f64; D], velocity: [f64; D]) -> Node {
-        self.push_node(Some(mass), position, velocity)
+        self.plan.push_node(Some(mass), &position, &velocity)
     }
 
     /// A spring between two nodes, made of the material `model`.
@@ -50,13 +50,13 @@ impl<const D: usize> Scene<D> {
                 "a spring has one measure, its stretch"
             );
         }
-        let element = self.next_element(&model);
+        let element = self.plan.next_element(&model);
         for node in nodes {
-            self.expect_own(&node);
+            self.plan.expect_own(&node);
         }
         if nodes[0] == nodes[1] {
             let node = nodes[0];
-            self.refuse(SceneError::SelfSpring { element, node });
+            self.plan.refuse(SceneError::SelfSpring { element, node });
         }
         let groups = Springs::get();
         // A branch that a constant rules out is not compiled.
@@ -79,7 +79,7 @@ impl<const D: usize> Scene<D> {
             let model = Tabled::new::<_, [f64; 1]>(model);
             self.push_spring::<M, Own<M>>(element, model, group_of::<Own<M>, D>)
         };
-        self.push_element(&nodes, at);
+        self.plan.push_element(&nodes, at);
         element
     }
 
@@ -98,30 +98,30 @@ impl<const D: usize> Scene<D> {
     /// The initial temperature of an element, K. Every element with a temperature needs one, also if a thermostat
     /// [prescribes it](Self::prescribe_temperature). The last call counts.
     pub fn set_temperature(&mut self, element: Element, temperature: f64) {
-        if self.expect_own(&element) {
-            self.elements[element.index()].temperature = Some(temperature);
+        if self.plan.expect_own(&element) {
+            self.plan.entries.elements[element.index()].temperature = Some(temperature);
         }
     }
 
     /// The initial viscous stretch of a dashpot (from 0) of an element, m; zero by default. For a viscous strain
     /// tensor use [`set_viscous_strain`](Self::set_viscous_strain).
     pub fn set_viscous_stretch(&mut self, element: Element, dashpot: usize, stretch: f64) {
-        if self.expect_own(&element) {
-            let entry = &mut self.elements[element.index()];
+        if self.plan.expect_own(&element) {
+            let entry = &mut self.plan.entries.elements[element.index()];
             let shape = self.groups.get(entry.group).map(|group| group.shape());
             let shape = shape.filter(|shape| shape.viscous_strain > 0);
             let dashpots = shape.map_or(usize::MAX, |shape| shape.scalar_dashpots());
             match SceneError::expect_dashpot(element, dashpot, dashpots) {
                 Ok(()) => entry.viscous_stretches.push((dashpot, stretch)),
-                Err(error) => self.refuse(error),
+                Err(error) => self.plan.refuse(error),
             }
         }
     }
 
     /// A heat reservoir at a constant temperature, K.
     pub fn reservoir(&mut self, temperature: f64) -> Reservoir {
-        self.reservoirs.push(temperature);
-        self.reservoir_at(self.reservoirs.len() - 1)
+        self.plan.reservoirs.push(temperature);
+        self.plan.reservoir_at(self.plan.reservoirs.len() - 1)
     }
 
     /// A heat reservoir whose temperature is a function of time, K of s: an oven, or the weather. The ledger
@@ -152,7 +152,10 @@ impl<const D: usize> Scene<D> {
     /// ```
     pub fn oven(&mut self, temperature: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Reservoir {
         let oven = self.reservoir(1.0);
-        self.loads.ovens.push((oven.index, Arc::new(temperature)));
+        self.plan
+            .loads
+            .ovens
+            .push((oven.index, Arc::new(temperature)));
         oven
     }
 
@@ -189,21 +192,21 @@ impl<const D: usize> Scene<D> {
         conductance: f64,
     ) -> HeatPath {
         let partner = partner.into();
-        let is_own = self.expect_own(&element);
+        let is_own = self.plan.expect_own(&element);
         let is_partner_own = match partner {
-            HeatPartner::Element(other) => self.expect_own(&other),
-            HeatPartner::Reservoir(other) => self.expect_own(&other),
+            HeatPartner::Element(other) => self.plan.expect_own(&other),
+            HeatPartner::Reservoir(other) => self.plan.expect_own(&other),
         };
         if is_own && is_partner_own {
-            self.conductors.push(Conductor {
+            self.plan.conductors.push(Conductor {
                 element,
                 partner,
                 conductance,
             });
         }
-        let index = self.conductors.len().saturating_sub(1);
+        let index = self.plan.conductors.len().saturating_sub(1);
         HeatPath {
-            scene: self.lineage.giver(Kind::HeatPath, index),
+            scene: self.plan.lineage.giver(Kind::HeatPath, index),
             index,
         }
     }
@@ -225,7 +228,7 @@ impl<const D: usize> Scene<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn start_at(&mut self, time: f64) {
-        self.start = time;
+        self.plan.start = time;
     }
 
     /// Limits the memory of the matrix of Newton's method and its factors, bytes. Without a limit it is the memory
@@ -251,6 +254,6 @@ impl<const D: usize> Scene<D> {
     /// ));
     /// ```
     pub fn limit_memory(&mut self, bytes: u64) {
-        self.memory_limit = MemoryLimit::new(Some(bytes));
+        self.plan.memory_limit = MemoryLimit::new(Some(bytes));
     }
 }

@@ -6,8 +6,8 @@ use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{
     Measure, Points, Quad4, QuadraticStrain, Shape, SolidPoint, Strain, StrainEnergy,
 };
+use crate::element::loads::point;
 use crate::scene::bulk::Bulk;
-use crate::scene::check::check_position;
 use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
@@ -32,13 +32,13 @@ pub struct Section {
 impl<const D: usize> Scene<D> {
     /// A node that moves and gets its mass from solids. Position in m, velocity in m/s.
     pub fn node(&mut self, position: [f64; D], velocity: [f64; D]) -> Node {
-        self.push_node(Some(0.0), position, velocity)
+        self.plan.push_node(Some(0.0), &position, &velocity)
     }
 
     /// Sets the initial position of a node, m. Solids keep their reference shape, so they start deformed.
     pub fn set_position(&mut self, node: Node, position: [f64; D]) {
-        if self.expect_own(&node) {
-            self.nodes[node.index].position = position.into();
+        if self.plan.expect_own(&node) {
+            self.plan.entries.positions[node.index * D..][..D].copy_from_slice(&position);
         }
     }
 }
@@ -83,7 +83,7 @@ impl Scene<2> {
         M: FreeEnergy<f64> + StrainEnergy<N> + Send + Sync + 'static,
     {
         let bulk = Bulk::new(section.density).thickness(section.thickness);
-        let first = self.next_element(&model);
+        let first = self.plan.next_element(&model);
         let measures = bulk.measures(model.strains(), first).map_err(Some);
         self.push_cell::<Quad4, M, N>(&model, &nodes, &bulk, measures)
     }
@@ -115,23 +115,24 @@ impl<const D: usize> Scene<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn set_viscous_strain(&mut self, point: Element, strain: [[f64; 3]; 3]) {
-        if !self.expect_own(&point) {
+        if !self.plan.expect_own(&point) {
             return;
         }
-        let entry = &self.elements[point.index()];
+        let entry = &self.plan.entries.elements[point.index()];
         // An invalid solid is already an error.
         let Some(group) = self.groups.get(entry.group) else {
             return;
         };
         let shape = group.shape();
         if shape.viscous_strain == 0 {
-            self.refuse(SolidError::NoViscousStrain { element: point });
+            self.plan
+                .refuse(SolidError::NoViscousStrain { element: point });
         }
         if let Some(error) = invalid_shear(point, &strain, D == 2) {
-            return self.refuse(error);
+            return self.plan.refuse(error);
         }
         let components = components(&strain).into_iter().take(shape.viscous_strain);
-        let entry = &mut self.elements[point.index()];
+        let entry = &mut self.plan.entries.elements[point.index()];
         entry
             .viscous_stretches
             .extend((shape.scalar_dashpots()..).zip(components));
@@ -183,7 +184,7 @@ impl<const D: usize> Scene<D> {
         H: Shape<D>,
         M: FreeEnergy<f64> + StrainEnergy<N> + Send + Sync + 'static,
     {
-        let first = self.next_element(model);
+        let first = self.plan.next_element(model);
         let points = H::PerPoint::from_fn(|point| first.after(point));
         let (group, place) = match self.expect_cell::<H, N>(nodes, bulk, measures, points.as_ref())
         {
@@ -197,12 +198,13 @@ impl<const D: usize> Scene<D> {
             }
             // The handles must be valid until the scene is checked.
             Err(errors) => {
-                self.errors.extend(errors);
+                self.plan.errors.extend(errors);
                 (INVALID, 0)
             }
         };
         for point in 0..points.as_ref().len() {
-            self.push_element(nodes.as_ref(), [group, place + point]);
+            self.plan
+                .push_element(nodes.as_ref(), [group, place + point]);
         }
         points
     }
@@ -230,13 +232,13 @@ impl<const D: usize> Scene<D> {
         points: &[Element],
     ) -> Result<H::PerPoint<SolidPoint<H, N, D>>, Option<SceneError>> {
         for node in nodes.as_ref() {
-            if !self.expect_own(node) {
+            if !self.plan.expect_own(node) {
                 return Err(None);
             }
-            check_position(*node, &self.nodes[node.index])?;
+            self.plan.check_position(*node)?;
         }
         let measures = measures.map_err(|error| error.map(SceneError::from))?;
-        let position = |at: usize| self.nodes[nodes[at].index].position.into();
+        let position = |at: usize| point(&self.plan.entries.positions, nodes[at].index);
         let reference = per_node::<H, _, D>(position);
         let cell = SolidPoint::<H, N, D>::points(&reference, bulk.thickness, measures);
         let cell = cell.map_err(|(point, size)| {
@@ -268,17 +270,17 @@ impl<const D: usize> Scene<D> {
             integrals::lump::<H, D>(&mut masses);
         }
         for (a, row) in masses.as_ref().iter().enumerate() {
-            let entry = &mut self.nodes[nodes[a].index];
+            let entry = &mut self.plan.entries.nodes[nodes[a].index];
             let mass = entry.mass.as_mut().unwrap_or(&mut entry.held);
             // A negative mass is that of the node itself, as masses of solids are positive.
             if *mass < 0.0 {
                 let (node, value) = (nodes[a], *mass);
-                self.errors.push(SceneError::Mass { node, value });
+                self.plan.errors.push(SceneError::Mass { node, value });
             }
             *mass += row[a];
             for (b, &mass) in row.as_ref().iter().enumerate().take(a) {
                 let [i, j] = [nodes[a].index, nodes[b].index];
-                self.pairs.push(([i.min(j), i.max(j)], mass));
+                self.plan.entries.pairs.push(([i.min(j), i.max(j)], mass));
             }
         }
     }

@@ -3,22 +3,24 @@
 //! The forces of a step are constant over it, so that their work `F·Δq` is exact; a moved anchor does the work of the force
 //! it needs; a thermostat gives the heat that its element needs. A scheme with stages evaluates them at the time of each.
 
-use crate::algebra::ascending;
+use core::ops::Range;
+
+use crate::algebra::{add, ascending};
 use crate::element::layout::Layout;
-use crate::element::loads::{Prescribed, Push, StepLoads, point};
+use crate::element::loads::{Prescribed, Push, StepLoads};
 use crate::element::masses::Masses;
 use crate::element::state::State;
-use crate::scene::loads::{Course, Loads};
+use crate::scene::loads::{Course, SceneLoads};
 use crate::step::error::StepFailure;
 use crate::step::timed::TimedLoad;
 use eem_material::number::scalar::is_positive;
 
 impl StepLoads {
     /// Memory for a scene; `is_coupled` says whether masses couple nodes.
-    pub(crate) fn new<const D: usize>(
+    pub(crate) fn new(
         coordinates: usize,
         layout: &Layout,
-        loads: &Loads<D>,
+        loads: &SceneLoads,
         is_coupled: bool,
     ) -> Self {
         let zeros = |needed: bool| vec![0.0; if needed { coordinates } else { 0 }];
@@ -45,6 +47,7 @@ impl StepLoads {
             pushes,
             motion: zeros(!loads.motions.is_empty()),
             speeds: zeros(!loads.motions.is_empty() && is_coupled),
+            value: vec![0.0; loads.dimension()],
             prescribed: vec![None; slots],
             slots: thermal,
         }
@@ -54,9 +57,9 @@ impl StepLoads {
     ///
     /// A force that depends on time is evaluated in the middle of the step, even with the trapezoidal rule: forces at
     /// both ends would halve the impulse of a load that is switched on between two steps.
-    pub(crate) fn evaluate<const D: usize>(
+    pub(crate) fn evaluate(
         &mut self,
-        loads: &Loads<D>,
+        loads: &SceneLoads,
         masses: &Masses,
         [time, step]: [f64; 2],
         old: &State,
@@ -67,19 +70,19 @@ impl StepLoads {
 
     /// Evaluates prescribed motions and temperatures at the end of a span of time that is a given fraction of the step;
     /// forces are evaluated at the stages instead.
-    pub(crate) fn evaluate_supports<const D: usize>(
+    pub(crate) fn evaluate_supports(
         &mut self,
-        loads: &Loads<D>,
+        loads: &SceneLoads,
         span: ([f64; 2], f64),
         old: &State,
     ) -> Result<(), StepFailure> {
         self.evaluate_supports_by(&SEXTIC, loads, span, old)
     }
 
-    fn evaluate_supports_by<const D: usize>(
+    fn evaluate_supports_by(
         &mut self,
         polynomial: &Polynomial,
-        loads: &Loads<D>,
+        loads: &SceneLoads,
         ([time, span], share): ([f64; 2], f64),
         old: &State,
     ) -> Result<(), StepFailure> {
@@ -90,9 +93,9 @@ impl StepLoads {
     }
 
     /// Evaluates forces, rockets and weights at a time.
-    pub(crate) fn evaluate_forces_at<const D: usize>(
+    pub(crate) fn evaluate_forces_at(
         &mut self,
-        loads: &Loads<D>,
+        loads: &SceneLoads,
         masses: &Masses,
         time: f64,
     ) -> Result<(), StepFailure> {
@@ -107,9 +110,9 @@ impl StepLoads {
     }
 
     /// Evaluates forces that do not depend on time, and weights.
-    pub(crate) fn evaluate_constant_forces<const D: usize>(
+    pub(crate) fn evaluate_constant_forces(
         &mut self,
-        loads: &Loads<D>,
+        loads: &SceneLoads,
         masses: &Masses,
         time: f64,
     ) -> Result<(), StepFailure> {
@@ -119,23 +122,26 @@ impl StepLoads {
     }
 
     /// Sums the forces at a time, with those that are functions of it or without.
-    fn evaluate_own_forces<const D: usize>(
+    fn evaluate_own_forces(
         &mut self,
-        loads: &Loads<D>,
+        loads: &SceneLoads,
         time: f64,
         with_functions: bool,
     ) -> Result<(), StepFailure> {
         self.force.fill(0.0);
         for (node, force) in &loads.forces {
             let value = match force {
-                Course::Function(of) if with_functions => of(time),
+                Course::Function(of) if with_functions => {
+                    of(time, &mut self.value);
+                    &self.value
+                }
                 Course::Function(_) => continue,
-                Course::Constant(force) | Course::Set(force) => *force,
+                Course::Constant(force) | Course::Set(force) => &force[..],
             };
-            for axis in 0..D {
+            let own = &mut self.force[node.index * value.len()..];
+            for (axis, (sum, value)) in own.iter_mut().zip(value).enumerate() {
                 // The sum of all loads on the node may overflow although none of them does.
-                let sum = &mut self.force[node.index * D + axis];
-                *sum += value[axis];
+                *sum += value;
                 expect_finite(TimedLoad::Force(*node), axis, *sum, time)?;
             }
         }
@@ -143,34 +149,41 @@ impl StepLoads {
     }
 
     /// Finds the total forces, from the forces and weights.
-    fn add_weights<const D: usize>(&mut self, loads: &Loads<D>, masses: &Masses) {
-        let total = self.total_force.as_chunks_mut::<D>().0;
-        for (node, (total, mass)) in total.iter_mut().zip(masses.iter()).enumerate() {
-            *total = point(&self.force, node);
-            weigh(total, mass.unwrap_or(0.0), loads);
+    fn add_weights(&mut self, loads: &SceneLoads, masses: &Masses) {
+        let (total, gravity) = (&mut self.total_force, &loads.gravity[..]);
+        if self.force.is_empty() {
+            total.fill(0.0);
+        } else {
+            total.copy_from_slice(&self.force);
+        }
+        let nodes = total.chunks_exact_mut(gravity.len());
+        for (total, mass) in nodes.zip(masses.iter()) {
+            add(total, mass.unwrap_or(0.0), gravity);
         }
         for ([row, _], mass) in masses.coupled() {
-            if let Some(total) = total.get_mut(row) {
-                weigh(total, mass, loads);
+            if let Some(total) = total.get_mut(row * gravity.len()..) {
+                add(total, mass, gravity);
             }
         }
     }
 
-    fn evaluate_motions<const D: usize>(
+    fn evaluate_motions(
         &mut self,
-        loads: &Loads<D>,
+        loads: &SceneLoads,
         [time, span]: [f64; 2],
         q0: &[f64],
     ) -> Result<(), StepFailure> {
         for (node, motion) in &loads.motions {
             let end = time + span;
-            let position = motion.position(end, &point(q0, node.index), span);
-            for axis in 0..D {
-                let at = node.index * D + axis;
-                self.motion[at] = position[axis] - q0[at];
-                if !self.motion[at].is_finite() {
+            let own = range(node.index, loads.dimension());
+            let (moved, from) = (&mut self.motion[own.clone()], &q0[own]);
+            motion.find_position(end, from, span, moved);
+            for (axis, (moved, from)) in moved.iter_mut().zip(from).enumerate() {
+                let position = *moved;
+                *moved -= from;
+                if !moved.is_finite() {
                     let load = TimedLoad::Motion(*node);
-                    return Err(StepFailure::of_load(load, axis, position[axis], end));
+                    return Err(StepFailure::of_load(load, axis, position, end));
                 }
             }
         }
@@ -179,9 +192,9 @@ impl StepLoads {
 
     /// The velocities of moved anchors at the end of a span, of a polynomial through their positions in it: more accurate
     /// than the step, and without oscillations from step to step.
-    fn evaluate_speeds<const D: usize>(
+    fn evaluate_speeds(
         &mut self,
-        loads: &Loads<D>,
+        loads: &SceneLoads,
         [time, span]: [f64; 2],
         q0: &[f64],
         polynomial: &Polynomial,
@@ -192,44 +205,50 @@ impl StepLoads {
         let part = span / polynomial.degree;
         let span_of_sum = polynomial.divisor * span;
         for (node, motion) in &loads.motions {
-            let mut sums = [0.0; D];
+            let own = range(node.index, loads.dimension());
+            let (sums, from) = (&mut self.speeds[own.clone()], &q0[own.clone()]);
+            let (moved, position) = (&self.motion[own], &mut self.value[..]);
+            sums.fill(0.0);
             let mut before = polynomial.degree;
             for &weight in polynomial.weights {
                 before -= 1.0;
                 let at = time + before * part;
-                let from = point(q0, node.index);
-                let elapsed = before * part;
-                let position = (before > 0.0).then(|| motion.position(at, &from, elapsed));
+                let moves = before > 0.0;
+                if moves {
+                    motion.find_position(at, from, before * part, position);
+                }
                 for (axis, sum) in sums.iter_mut().enumerate() {
-                    let coordinate = node.index * D + axis;
                     // No displacement at the start.
-                    let place = position.map_or(0.0, |q| q[axis] - q0[coordinate]);
+                    let place = if moves {
+                        position[axis] - from[axis]
+                    } else {
+                        0.0
+                    };
                     if !place.is_finite() {
-                        let (load, value) = (TimedLoad::Motion(*node), place + q0[coordinate]);
+                        let (load, value) = (TimedLoad::Motion(*node), place + from[axis]);
                         return Err(StepFailure::of_load(load, axis, value, at));
                     }
-                    *sum += weight * (self.motion[coordinate] - place);
+                    *sum += weight * (moved[axis] - place);
                 }
             }
-            for (axis, sum) in sums.into_iter().enumerate() {
-                let speed = sum / span_of_sum;
+            for (axis, speed) in sums.iter_mut().enumerate() {
+                *speed /= span_of_sum;
                 if !speed.is_finite() {
                     return Err(StepFailure::MotionSpeed {
                         node: *node,
                         axis,
-                        value: speed,
+                        value: *speed,
                         time: time + span,
                     });
                 }
-                self.speeds[node.index * D + axis] = speed;
             }
         }
         Ok(())
     }
 
-    fn evaluate_temperatures<const D: usize>(
+    fn evaluate_temperatures(
         &mut self,
-        loads: &Loads<D>,
+        loads: &SceneLoads,
         ([time, span], share): ([f64; 2], f64),
         old: &[f64],
     ) -> Result<(), StepFailure> {
@@ -288,9 +307,7 @@ const SEXTIC: Polynomial = Polynomial {
     divisor: 10.0,
 };
 
-/// Adds the weight of a mass.
-fn weigh<const D: usize>(total: &mut [f64; D], mass: f64, loads: &Loads<D>) {
-    for (total, &acceleration) in total.iter_mut().zip(loads.gravity.iter()) {
-        *total += mass * acceleration;
-    }
+/// The coordinates of a node.
+fn range(node: usize, dimension: usize) -> Range<usize> {
+    node * dimension..(node + 1) * dimension
 }

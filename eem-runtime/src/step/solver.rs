@@ -44,8 +44,8 @@ pub(crate) struct Solver<const D: usize> {
     /// The nodes that move, in the order of their unknowns, set after set.
     nodes: Vec<Balance<D>>,
     /// The masses that couple these nodes.
-    coupling: Coupling<D>,
-    rockets: Rockets<D>,
+    coupling: Coupling,
+    rockets: Rockets,
     /// The coupled interface temperatures, set after set.
     interfaces: Vec<Interface>,
     /// The system of an iteration.
@@ -131,8 +131,21 @@ impl<const D: usize> Solver<D> {
             Balance::add_all(masses, &sites, &mut nodes);
             Interface::add_all(&sites, &mut interfaces);
         }
-        let coupling = Coupling::new(masses, &loads.moved, (&sites, sets.len()));
-        let rockets = Rockets::new(scheme.tableau(), loads, masses.len(), &sites);
+        let unknowns = (&layout.nodes[..], sets.len());
+        let coupling = Coupling::new(D, masses, &loads.moved, unknowns, &|set, [row, column]| {
+            let sites = sites.of_sets([set, set]);
+            sites.place(Some(row), Some(column))
+        });
+        let unknown = |[node, axis]: [usize; 2]| layout.nodes[node].map(|first| first + axis);
+        let rockets = Rockets::new(
+            scheme.tableau(),
+            loads,
+            [D, masses.len()],
+            (
+                &|set, row| sites.of_sets([set, set]).row(unknown(row)),
+                &|sets, [row, column]| sites.of_sets(sets).place(unknown(row), unknown(column)),
+            ),
+        );
         // Without conduction between elements there are no interface temperatures.
         let slots = layout.thermal * usize::from(!interfaces.is_empty());
         Self {

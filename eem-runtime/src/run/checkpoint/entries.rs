@@ -206,27 +206,33 @@ impl Checkpoint {
         }
         if let Some(explicit) = &self.explicit {
             let momentum = explicit.largest_momentum;
-            let flags = [explicit.is_new, explicit.is_motion_first];
-            let flags = flags.map(|flag| f64::from(u8::from(flag)));
-            entries.extend(explicit.sums().map(|(name, sums)| {
+            let flag = |is_set: bool| f64::from(u8::from(is_set));
+            let flags = vec![flag(explicit.is_new), flag(explicit.is_motion_first)];
+            for (name, sums) in explicit.sums() {
                 let entry = Entry::new(name, Rule::Sum, flat(sums));
-                entry.counted(sums.len()).sealed()
-            }));
-            let lists = explicit.lists();
-            entries.extend(lists.map(|(name, numbers)| Entry::list(name, numbers).sealed()));
+                entries.push(entry.counted(sums.len()).sealed());
+            }
+            for (name, numbers) in explicit.lists() {
+                entries.push(Entry::list(name, numbers).sealed());
+            }
             entries.extend([
                 Entry::new("the largest momentum", NotNegative, vec![momentum]).sealed(),
                 Entry::new("the energy defect", Rule::None, vec![explicit.residue]).sealed(),
-                Entry::new("the start of a step", Rule::None, flags.to_vec()).sealed(),
+                Entry::new("the start of a step", Rule::None, flags).sealed(),
             ]);
         }
         entries
     }
 
     /// The names and digests of all sealed entries.
-    pub(super) fn digests(&self) -> impl Iterator<Item = (&'static str, Digest)> {
-        let sealed = self.entries().into_iter().filter(|entry| entry.is_sealed);
-        sealed.map(|entry| (entry.name, entry.digest()))
+    pub(super) fn digests(&self) -> Vec<(&'static str, Digest)> {
+        let mut digests = Vec::new();
+        for entry in self.entries() {
+            if entry.is_sealed {
+                digests.push((entry.name, entry.digest()));
+            }
+        }
+        digests
     }
 
     /// An error unless all numbers can be those of a run of this simulation.
@@ -235,13 +241,13 @@ impl Checkpoint {
         for entry in self.entries() {
             entry.check(&others)?;
         }
-        let entries = self.entries().into_iter();
-        let sealed = entries.filter(|entry| entry.is_sealed).count();
-        expect_count("seals", self.seals.len(), sealed)?;
-        let mut pairs = self.digests().zip(&self.seals);
-        match pairs.find(|((_, digest), seal)| digest != *seal) {
-            Some(((entry, _), _)) => Err(RestoreError::Edited { entry }),
-            None => Ok(()),
+        let digests = self.digests();
+        expect_count("seals", self.seals.len(), digests.len())?;
+        for ((entry, digest), seal) in digests.into_iter().zip(&self.seals) {
+            if digest != *seal {
+                return Err(RestoreError::Edited { entry });
+            }
         }
+        Ok(())
     }
 }

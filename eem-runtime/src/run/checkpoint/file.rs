@@ -8,9 +8,10 @@
 //! ```
 //!
 //! Every line has a name and its items. Numbers are the shortest decimals that are read as the same number. Every function of the text
-//! writes the value `own` and returns it; if `own` is `None`, it reads the value from the next line.
+//! writes the value `own`, or reads it from the next line.
 
-use core::fmt::{Display, Write as _};
+use core::fmt::{self, Display, Write as _};
+use core::mem;
 use core::str::{FromStr, Lines};
 use std::fs::{self, File};
 use std::io::{self, Write as _};
@@ -103,9 +104,9 @@ impl Checkpoint {
 
     /// The contents of a file.
     pub(super) fn to_text(&self) -> String {
-        let mut text = Text::new("", 0);
-        _ = Self::lines(&mut text, Some(self));
-        let lines = text.written();
+        let mut text = Text::to_write();
+        _ = self.clone().lines(&mut text);
+        let lines = text.written;
         let head = format!("{KIND} {VERSION} {NUMBERS}\n{lines}");
         let digest = digest(&head);
         format!("{head}{DIGEST}{digest}\n")
@@ -132,9 +133,12 @@ impl Checkpoint {
             let found = numbers.unwrap_or_default();
             return Err(FormatError::Scalar { found });
         }
-        let mut rest = Text::new(&lines[head.len() + 1..], 1);
-        Self::lines(&mut rest, None)
-            .map_err(|Fault { line, expected }| FormatError::Line { line, expected })
+        let mut rest = Text::to_read(&lines[head.len() + 1..], 1);
+        let mut checkpoint = Self::blank();
+        match checkpoint.lines(&mut rest) {
+            Ok(()) => Ok(checkpoint),
+            Err(Fault { line, expected }) => Err(FormatError::Line { line, expected }),
+        }
     }
 }
 
@@ -151,52 +155,58 @@ pub(super) struct Fault {
 }
 
 /// What a function of the text returns.
-pub(super) type Read<T> = Result<T, Fault>;
+pub(super) type Read = Result<(), Fault>;
 
 /// A text that is written or read.
 pub(super) struct Text<'a> {
     written: String,
-    lines: Lines<'a>,
+    /// `None` while the text is written.
+    lines: Option<Lines<'a>>,
     /// The number of the last line.
     number: usize,
 }
 
 impl<'a> Text<'a> {
-    /// A text to write, or to read: `rest` follows after `number` lines.
-    pub(super) fn new(rest: &'a str, number: usize) -> Self {
+    /// A text to write.
+    fn to_write() -> Self {
         Self {
             written: String::new(),
-            lines: rest.lines(),
+            lines: None,
+            number: 0,
+        }
+    }
+
+    /// A text to read: `rest` follows after `number` lines.
+    fn to_read(rest: &'a str, number: usize) -> Self {
+        Self {
+            written: String::new(),
+            lines: Some(rest.lines()),
             number,
         }
     }
 
-    /// All that has been written.
-    pub(super) fn written(self) -> String {
-        self.written
-    }
-
-    /// A line of so many items, of which `show` writes one, or of any number, of which `read` reads one.
+    /// A line of items: so many are written, of which `show` writes one; or any number is read, of which `read` reads one.
     fn line(
         &mut self,
         name: &'static str,
-        count: Option<usize>,
-        show: &dyn Fn(usize, &mut String),
+        count: usize,
+        show: &dyn Fn(usize, &mut String) -> fmt::Result,
         read: &mut dyn FnMut(&str) -> Option<()>,
-    ) -> Read<()> {
+    ) -> Read {
         self.number += 1;
-        if let Some(count) = count {
+        let fault = self.fault(name);
+        let Some(lines) = &mut self.lines else {
             self.written.push_str(name);
             self.written.push(':');
             for index in 0..count {
                 self.written.push(' ');
-                show(index, &mut self.written);
+                // Writing to a string does not fail.
+                _ = show(index, &mut self.written);
             }
             self.written.push('\n');
             return Ok(());
-        }
-        let fault = self.fault(name);
-        let line = self.lines.next().ok_or(fault)?;
+        };
+        let line = lines.next().ok_or(fault)?;
         let items = line
             .strip_prefix(name)
             .and_then(|rest| rest.strip_prefix(':'));
@@ -206,124 +216,159 @@ impl<'a> Text<'a> {
         Ok(())
     }
 
-    /// A line of items, written as `show` does.
-    fn list<T: FromStr + Clone>(
-        &mut self,
-        name: &'static str,
-        own: Option<&[T]>,
-        show: fn(&T, &mut String),
-    ) -> Read<Vec<T>> {
-        let mut items = own.unwrap_or_default().to_vec();
-        let mut found = Vec::new();
-        let count = own.map(<[T]>::len);
-        self.line(
-            name,
-            count,
-            &|at, text| show(&items[at], text),
-            &mut |item| {
-                found.push(item.parse().ok()?);
-                Some(())
-            },
-        )?;
-        items.append(&mut found);
-        Ok(items)
-    }
-
     /// A list of numbers.
-    pub(super) fn numbers(&mut self, name: &'static str, own: Option<&[f64]>) -> Read<Vec<f64>> {
-        // Writing to a string does not fail.
-        self.list(name, own, |number, text| _ = write!(text, "{number:?}"))
+    pub(super) fn numbers(&mut self, name: &'static str, own: &mut Vec<f64>) -> Read {
+        let numbers = mem::take(own);
+        let show = |at: usize, text: &mut String| write!(text, "{:?}", numbers[at]);
+        self.line(name, numbers.len(), &show, &mut |item| {
+            own.push(item.parse().ok()?);
+            Some(())
+        })?;
+        if self.lines.is_none() {
+            *own = numbers;
+        }
+        Ok(())
     }
 
-    /// N numbers.
-    pub(super) fn array<const N: usize>(
-        &mut self,
-        name: &'static str,
-        own: Option<[f64; N]>,
-    ) -> Read<[f64; N]> {
-        let numbers = self.numbers(name, own.as_ref().map(|own| &own[..]))?;
-        numbers.try_into().map_err(|_| self.fault(name))
+    /// Given numbers.
+    pub(super) fn array(&mut self, name: &'static str, own: &mut [&mut f64]) -> Read {
+        let mut numbers = Vec::with_capacity(own.len());
+        for number in &*own {
+            numbers.push(**number);
+        }
+        self.numbers(name, &mut numbers)?;
+        if numbers.len() != own.len() {
+            return Err(self.fault(name));
+        }
+        for (own, number) in own.iter_mut().zip(numbers) {
+            **own = number;
+        }
+        Ok(())
     }
 
     /// One number.
-    pub(super) fn number(&mut self, name: &'static str, own: Option<f64>) -> Read<f64> {
-        let [number] = self.array(name, own.map(|own| [own]))?;
-        Ok(number)
+    pub(super) fn number(&mut self, name: &'static str, own: &mut f64) -> Read {
+        self.array(name, &mut [own])
+    }
+
+    /// One number or none.
+    pub(super) fn maybe(&mut self, name: &'static str, own: &mut Option<f64>) -> Read {
+        let mut numbers = own.map(|own| [own]);
+        self.few(name, &mut numbers)?;
+        *own = numbers.map(|[number]| number);
+        Ok(())
     }
 
     /// N numbers or none.
     pub(super) fn few<const N: usize>(
         &mut self,
         name: &'static str,
-        own: Option<&Option<[f64; N]>>,
-    ) -> Read<Option<[f64; N]>> {
-        let own = own.map(|own| own.as_ref().map_or(&[][..], |own| &own[..]));
-        let numbers = self.numbers(name, own)?;
-        if numbers.is_empty() {
-            return Ok(None);
+        own: &mut Option<[f64; N]>,
+    ) -> Read {
+        let mut numbers = own.as_slice().as_flattened().to_vec();
+        self.numbers(name, &mut numbers)?;
+        *own = None;
+        if !numbers.is_empty() {
+            let numbers = <[f64; N]>::try_from(numbers);
+            *own = Some(numbers.map_err(|_| self.fault(name))?);
         }
-        numbers.try_into().map(Some).map_err(|_| self.fault(name))
+        Ok(())
     }
 
     /// Items without blanks: counts, words, digests.
-    pub(super) fn items<T: Display + FromStr + Clone>(
+    pub(super) fn items<T: Display + FromStr>(
         &mut self,
         name: &'static str,
-        own: Option<&[T]>,
-    ) -> Read<Vec<T>> {
-        self.list(name, own, |item, text| _ = write!(text, "{item}"))
+        own: &mut Vec<T>,
+    ) -> Read {
+        let items = mem::take(own);
+        let show = |at: usize, text: &mut String| write!(text, "{}", items[at]);
+        self.line(name, items.len(), &show, &mut |item| {
+            own.push(item.parse().ok()?);
+            Some(())
+        })?;
+        if self.lines.is_none() {
+            *own = items;
+        }
+        Ok(())
     }
 
     /// One such item.
-    pub(super) fn item<T: Display + FromStr + Clone>(
-        &mut self,
-        name: &'static str,
-        own: Option<T>,
-    ) -> Read<T> {
-        let own = own.map(|own| [own]);
-        let items = self.items(name, own.as_ref().map(|own| &own[..]))?;
-        let items: Result<[T; 1], _> = items.try_into();
-        items.map(|[item]| item).map_err(|_| self.fault(name))
+    pub(super) fn item<T: Display + FromStr>(&mut self, name: &'static str, own: &mut T) -> Read {
+        let mut found = None;
+        self.word(name, own, &mut |item| {
+            found = Some(item.parse().ok()?);
+            Some(())
+        })?;
+        if let Some(found) = found {
+            *own = found;
+        }
+        Ok(())
     }
 
-    /// A part that may be absent.
+    /// The same, given what reads it.
+    fn word(
+        &mut self,
+        name: &'static str,
+        own: &dyn Display,
+        read: &mut dyn FnMut(&str) -> Option<()>,
+    ) -> Read {
+        let mut count = 0;
+        let show = |_: usize, text: &mut String| write!(text, "{own}");
+        self.line(name, 1, &show, &mut |item| {
+            count += 1;
+            read(item)
+        })?;
+        if self.lines.is_some() && count != 1 {
+            return Err(self.fault(name));
+        }
+        Ok(())
+    }
+
+    /// A part that may be absent; it is read over a blank one.
     pub(super) fn part<T>(
         &mut self,
         name: &'static str,
-        own: Option<&Option<T>>,
-        pass: impl FnOnce(&mut Self, Option<&T>) -> Read<T>,
-    ) -> Read<Option<T>> {
-        let is_there = self.item(name, own.map(Option::is_some))?;
-        let own = own.and_then(Option::as_ref);
-        is_there.then(|| pass(self, own)).transpose()
+        own: &mut Option<T>,
+        blank: T,
+        pass: fn(&mut Self, &mut T) -> Read,
+    ) -> Read {
+        let mut is_there = own.is_some();
+        self.item(name, &mut is_there)?;
+        if is_there {
+            return pass(self, own.get_or_insert(blank));
+        }
+        *own = None;
+        Ok(())
     }
 
     /// A sum and its compensation.
-    pub(super) fn sum(&mut self, name: &'static str, own: Option<Sum>) -> Read<Sum> {
-        let [value, carry] = self.array(name, own.map(|own| [own.value, own.carry]))?;
-        Ok(Sum { value, carry })
+    pub(super) fn sum(&mut self, name: &'static str, own: &mut Sum) -> Read {
+        self.array(name, &mut [&mut own.value, &mut own.carry])
     }
 
     /// Sums, and their compensations in the next line.
-    pub(super) fn sums(
-        &mut self,
-        names: [&'static str; 2],
-        own: Option<&Compensated>,
-    ) -> Read<Compensated> {
-        let carries: Option<Vec<f64>> = own.map(|own| own.sums().map(|(_, carry)| carry).collect());
-        let values = self.numbers(names[0], own.map(Compensated::values))?;
-        let carries = self.numbers(names[1], carries.as_deref())?;
-        Compensated::of(values, carries).ok_or_else(|| self.fault(names[1]))
+    pub(super) fn sums(&mut self, names: [&'static str; 2], own: &mut Compensated) -> Read {
+        let mut values = own.values().to_vec();
+        let mut carries = own.sums().map(|(_, carry)| carry).collect();
+        self.numbers(names[0], &mut values)?;
+        self.numbers(names[1], &mut carries)?;
+        *own = Compensated::of(values, carries).ok_or_else(|| self.fault(names[1]))?;
+        Ok(())
     }
 
     /// Pairs of a value and its compensation.
-    pub(super) fn pairs(&mut self, name: &'static str, own: Option<&[Sum]>) -> Read<Vec<Sum>> {
-        let numbers = self.numbers(name, own.map(flat).as_deref())?;
-        let (pairs, []) = numbers.as_chunks::<2>() else {
+    pub(super) fn pairs(&mut self, name: &'static str, own: &mut Vec<Sum>) -> Read {
+        let mut numbers = flat(own);
+        self.numbers(name, &mut numbers)?;
+        let (pairs, []) = numbers.as_chunks() else {
             return Err(self.fault(name));
         };
-        let pairs = pairs.iter();
-        Ok(pairs.map(|&[value, carry]| Sum { value, carry }).collect())
+        own.clear();
+        for &[value, carry] in pairs {
+            own.push(Sum { value, carry });
+        }
+        Ok(())
     }
 
     /// The fault that the last line is not as expected.

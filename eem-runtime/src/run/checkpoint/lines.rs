@@ -1,4 +1,4 @@
-//! The lines of a file with a checkpoint. Each function writes the part `own`, or reads it if `own` is `None`.
+//! The lines of a file with a checkpoint. Each function writes its part, or reads it over one of any content.
 
 use super::file::{Read, Text};
 use super::{
@@ -9,175 +9,199 @@ use crate::algebra::memory::TooLarge;
 use crate::element::meters::Meters;
 use crate::element::state::{Energy, State};
 use crate::step::automatic::{SchemeSelection, TrialClock};
-use crate::step::control::{Controller, StepStatistics, Tolerance};
+use crate::step::control::{StepStatistics, Tolerance};
 use crate::step::explicit::SavedExplicit;
 use crate::step::newton::NewtonSettings;
+use crate::step::scheme::Scheme;
 use crate::step::solver::SavedPast;
+use eem_material::number::compensated::{Compensated, Sum};
+use eem_material::number::digest::Digest;
 
 impl Checkpoint {
-    /// Writes or reads the whole checkpoint.
-    pub(super) fn lines(text: &mut Text<'_>, own: Option<&Self>) -> Read<Self> {
-        let newton = own.map(|own| own.newton);
-        Ok(Self {
-            scheme: text.item("scheme", own.map(|own| own.scheme))?,
-            outline: outline(text, own.map(|own| &own.outline))?,
-            numbers: numbers(text, own.map(|own| &own.numbers))?,
-            step: text.number("step size", own.map(|own| own.step))?,
-            newton: NewtonSettings {
-                max_iterations: text.item("iterations", newton.map(|own| own.max_iterations))?,
-                tolerance: text
-                    .number("tolerance of an iteration", newton.map(|own| own.tolerance))?,
+    /// One of nothing, to be read.
+    pub(super) fn blank() -> Self {
+        let digest = Digest::of(|_| {});
+        let (sum, sums) = (Sum::new(0.0), || Compensated::new(Vec::new()));
+        Self {
+            scheme: Scheme::Auto,
+            outline: Outline {
+                dimensions: 0,
+                anchors: Vec::new(),
+                elements: Vec::new(),
+                reservoirs: 0,
             },
-            control: text.part("step control", own.map(|own| &own.control), control)?,
-            choice: text.part("choice of a scheme", own.map(|own| &own.choice), choice)?,
-            state: state(text, own.map(|own| &own.state))?,
-            energies: energies(text, own.map(|own| &own.energies))?,
-            loads: loads(text, own.map(|own| &own.loads))?,
-            past: past(text, own.map(|own| &own.past))?,
-            explicit: text.part("explicit", own.map(|own| &own.explicit), explicit)?,
-            seals: text.items("digests", own.map(|own| &own.seals[..]))?,
-        })
+            numbers: Numbers {
+                materials: digest,
+                masses: digest,
+                conductances: digest,
+                reservoirs: digest,
+                gravity: digest,
+            },
+            step: 0.0,
+            newton: NewtonSettings::default(),
+            control: None,
+            choice: None,
+            state: State {
+                time: sum,
+                positions: sums(),
+                momenta: sums(),
+                velocities: sums(),
+                viscous: sums(),
+                entropies: sums(),
+                temperatures: Vec::new(),
+                energies: Vec::new(),
+                reservoir_entropies: sums(),
+                work: sum,
+                heat: sum,
+                thermostat_entropy: sum,
+                dissipated: sum,
+                meters: Meters::default(),
+            },
+            energies: SavedEnergies {
+                of: digest,
+                list: Vec::new(),
+            },
+            loads: SavedLoads::default(),
+            past: SavedPast::none(),
+            explicit: None,
+            seals: Vec::new(),
+        }
+    }
+
+    /// Writes or reads the whole checkpoint.
+    pub(super) fn lines(&mut self, text: &mut Text<'_>) -> Read {
+        text.item("scheme", &mut self.scheme)?;
+        outline(text, &mut self.outline)?;
+        numbers(text, &mut self.numbers)?;
+        text.number("step size", &mut self.step)?;
+        text.item("iterations", &mut self.newton.max_iterations)?;
+        text.number("tolerance of an iteration", &mut self.newton.tolerance)?;
+        let blank = SavedControl::new(Tolerance::default());
+        text.part("step control", &mut self.control, blank, control)?;
+        let blank = SavedChoice {
+            scheme: Scheme::Auto,
+            previous: Scheme::Auto,
+            selection: SchemeSelection::new(),
+        };
+        text.part("choice of a scheme", &mut self.choice, blank, choice)?;
+        state(text, &mut self.state)?;
+        energies(text, &mut self.energies)?;
+        loads(text, &mut self.loads)?;
+        past(text, &mut self.past)?;
+        let blank = SavedExplicit {
+            is_new: false,
+            state: Digest::of(|_| {}),
+            is_motion_first: false,
+            targets: Vec::new(),
+            shares: Vec::new(),
+            largest_momentum: 0.0,
+            residue: 0.0,
+            rates: Vec::new(),
+            loads: Vec::new(),
+        };
+        text.part("explicit", &mut self.explicit, blank, explicit)?;
+        text.items("digests", &mut self.seals)
     }
 }
 
-fn outline(text: &mut Text<'_>, own: Option<&Outline>) -> Read<Outline> {
-    let dashpots = own.map(|own| own.elements.iter().map(|element| element.dashpots));
-    let dashpots: Option<Vec<usize>> = dashpots.map(Iterator::collect);
-    let are_thermal = own.map(|own| own.elements.iter().map(|element| element.thermal));
-    let are_thermal: Option<Vec<bool>> = are_thermal.map(Iterator::collect);
-    let dimensions = text.item("dimensions", own.map(|own| own.dimensions))?;
-    let anchors = text.items("anchors", own.map(|own| &own.anchors[..]))?;
-    let dashpots = text.items("dashpots", dashpots.as_deref())?;
-    let are_thermal = text.items("have a temperature", are_thermal.as_deref())?;
+fn outline(text: &mut Text<'_>, own: &mut Outline) -> Read {
+    let (mut dashpots, mut are_thermal) = (Vec::new(), Vec::new());
+    for element in own.elements.drain(..) {
+        dashpots.push(element.dashpots);
+        are_thermal.push(element.thermal);
+    }
+    text.item("dimensions", &mut own.dimensions)?;
+    text.items("anchors", &mut own.anchors)?;
+    text.items("dashpots", &mut dashpots)?;
+    text.items("have a temperature", &mut are_thermal)?;
     if dashpots.len() != are_thermal.len() {
         return Err(text.fault("have a temperature"));
     }
-    let elements = dashpots.into_iter().zip(are_thermal);
-    Ok(Outline {
-        dimensions,
-        anchors,
-        elements: elements
-            .map(|(dashpots, thermal)| ElementOutline { dashpots, thermal })
-            .collect(),
-        reservoirs: text.item("reservoirs", own.map(|own| own.reservoirs))?,
-    })
+    for (dashpots, thermal) in dashpots.into_iter().zip(are_thermal) {
+        own.elements.push(ElementOutline { dashpots, thermal });
+    }
+    text.item("reservoirs", &mut own.reservoirs)
 }
 
-fn numbers(text: &mut Text<'_>, own: Option<&Numbers>) -> Read<Numbers> {
-    Ok(Numbers {
-        materials: text.item("digest of materials", own.map(|own| own.materials))?,
-        masses: text.item("digest of masses", own.map(|own| own.masses))?,
-        conductances: text.item("digest of conductances", own.map(|own| own.conductances))?,
-        reservoirs: text.item("digest of reservoirs", own.map(|own| own.reservoirs))?,
-        gravity: text.item("digest of gravity", own.map(|own| own.gravity))?,
-    })
+fn numbers(text: &mut Text<'_>, own: &mut Numbers) -> Read {
+    text.item("digest of materials", &mut own.materials)?;
+    text.item("digest of masses", &mut own.masses)?;
+    text.item("digest of conductances", &mut own.conductances)?;
+    text.item("digest of reservoirs", &mut own.reservoirs)?;
+    text.item("digest of gravity", &mut own.gravity)
 }
 
-fn control(text: &mut Text<'_>, own: Option<&SavedControl>) -> Read<SavedControl> {
-    let tolerance = own.map(|own| {
-        let tolerance = own.tolerance;
-        [
-            tolerance.relative,
-            tolerance.position,
-            tolerance.momentum,
-            tolerance.temperature,
-        ]
-    });
-    let [relative, position, momentum, temperature] = text.array("tolerances", tolerance)?;
-    let over = own.map(|own| own.tolerance.over.map(|time| [time]));
-    let over = text.few("time of the tolerance", over.as_ref())?;
-    let statistics = own.map(|own| &own.statistics);
-    Ok(SavedControl {
-        tolerance: Tolerance {
-            relative,
-            position,
-            momentum,
-            temperature,
-            over: over.map(|[time]| time),
-        },
-        controller: Controller {
-            last: text.few(
-                "error and size of the last step",
-                own.map(|own| &own.controller.last),
-            )?,
-        },
-        statistics: StepStatistics {
-            accepted: text.item("accepted", statistics.map(|own| own.accepted))?,
-            rejected_by_error: text.item(
-                "rejected by error",
-                statistics.map(|own| own.rejected_by_error),
-            )?,
-            rejected_by_newton: text.item(
-                "rejected by newton",
-                statistics.map(|own| own.rejected_by_newton),
-            )?,
-            rejected_by_domain: text.item(
-                "rejected by domain",
-                statistics.map(|own| own.rejected_by_domain),
-            )?,
-            rejected_by_law: text
-                .item("rejected by law", statistics.map(|own| own.rejected_by_law))?,
-            changes_of_scheme: text.item(
-                "changes of scheme",
-                statistics.map(|own| own.changes_of_scheme),
-            )?,
-            too_large: too_large(text, statistics.map(|own| &own.too_large))?,
-        },
-        largest_momentum: text.number("largest momentum", own.map(|own| own.largest_momentum))?,
-        smallest: text.number("smallest step", own.map(|own| own.smallest))?,
-        largest: text.number("largest step", own.map(|own| own.largest))?,
-    })
-}
-
-fn too_large(text: &mut Text<'_>, own: Option<&Option<TooLarge>>) -> Read<Option<TooLarge>> {
-    text.part("missing memory", own, |text, own| {
-        let available = own.map(|own| own.available.as_slice());
-        let available = text.items("available bytes", available)?;
-        Ok(TooLarge {
-            unknowns: text.item("unknowns", own.map(|own| own.unknowns))?,
-            needed: text.item("needed bytes", own.map(|own| own.needed))?,
-            available: available.first().copied(),
-        })
-    })
-}
-
-fn choice(text: &mut Text<'_>, own: Option<&SavedChoice>) -> Read<SavedChoice> {
-    Ok(SavedChoice {
-        scheme: text.item("scheme in use", own.map(|own| own.scheme))?,
-        previous: text.item("scheme before", own.map(|own| own.previous))?,
-        selection: selection(text, own.map(|own| &own.selection))?,
-    })
-}
-
-fn selection(text: &mut Text<'_>, own: Option<&SchemeSelection>) -> Read<SchemeSelection> {
-    let clock = |text: &mut Text<'_>, [due, wait]: [&'static str; 2], own: Option<TrialClock>| {
-        let waits = own.map(|own| own.wait.map(|wait| [wait]));
-        Ok(TrialClock {
-            due: text.number(due, own.map(|own| own.due))?,
-            wait: text.few(wait, waits.as_ref())?.map(|[wait]| wait),
-        })
+fn control(text: &mut Text<'_>, own: &mut SavedControl) -> Read {
+    let Tolerance {
+        relative,
+        position,
+        momentum,
+        temperature,
+        over,
+    } = &mut own.tolerance;
+    text.array(
+        "tolerances",
+        &mut [relative, position, momentum, temperature],
+    )?;
+    text.maybe("time of the tolerance", over)?;
+    text.few("error and size of the last step", &mut own.controller.last)?;
+    let StepStatistics {
+        accepted,
+        rejected_by_error,
+        rejected_by_newton,
+        rejected_by_domain,
+        rejected_by_law,
+        changes_of_scheme,
+        too_large,
+    } = &mut own.statistics;
+    text.item("accepted", accepted)?;
+    text.item("rejected by error", rejected_by_error)?;
+    text.item("rejected by newton", rejected_by_newton)?;
+    text.item("rejected by domain", rejected_by_domain)?;
+    text.item("rejected by law", rejected_by_law)?;
+    text.item("changes of scheme", changes_of_scheme)?;
+    let blank = TooLarge {
+        unknowns: 0,
+        needed: 0,
+        available: None,
     };
-    let explicit_trials = ["explicit trial due", "wait for an explicit trial"];
-    let implicit_trials = ["implicit trial due", "wait for an implicit trial"];
-    Ok(SchemeSelection {
-        recent_effort: text.number("recent effort", own.map(|own| own.recent_effort))?,
-        recent_time: text.number("recent time", own.map(|own| own.recent_time))?,
-        steps: text.item("steps", own.map(|own| own.steps))?,
-        size: text.number("size of the last step", own.map(|own| own.size))?,
-        limited_checks: text.item("limited checks", own.map(|own| own.limited_checks))?,
-        failures: text.item("failures", own.map(|own| own.failures))?,
-        previous_rate: text.number("effort before", own.map(|own| own.previous_rate))?,
-        previous_step: text.number("step before", own.map(|own| own.previous_step))?,
-        is_on_trial: text.item("on trial", own.map(|own| own.is_on_trial))?,
-        tried_at: text.number("tried at", own.map(|own| own.tried_at))?,
-        spent: text.number("spent", own.map(|own| own.spent))?,
-        explicit_trials: clock(text, explicit_trials, own.map(|own| own.explicit_trials))?,
-        implicit_trials: clock(text, implicit_trials, own.map(|own| own.implicit_trials))?,
-        failed_trials: text.item("failed trials", own.map(|own| own.failed_trials))?,
-    })
+    text.part("missing memory", too_large, blank, |text, own| {
+        let mut available = own.available.as_slice().to_vec();
+        text.items("available bytes", &mut available)?;
+        own.available = available.first().copied();
+        text.item("unknowns", &mut own.unknowns)?;
+        text.item("needed bytes", &mut own.needed)
+    })?;
+    text.number("largest momentum", &mut own.largest_momentum)?;
+    text.number("smallest step", &mut own.smallest)?;
+    text.number("largest step", &mut own.largest)
 }
 
-fn state(text: &mut Text<'_>, own: Option<&State>) -> Read<State> {
+fn choice(text: &mut Text<'_>, own: &mut SavedChoice) -> Read {
+    text.item("scheme in use", &mut own.scheme)?;
+    text.item("scheme before", &mut own.previous)?;
+    let own = &mut own.selection;
+    text.number("recent effort", &mut own.recent_effort)?;
+    text.number("recent time", &mut own.recent_time)?;
+    text.item("steps", &mut own.steps)?;
+    text.number("size of the last step", &mut own.size)?;
+    text.item("limited checks", &mut own.limited_checks)?;
+    text.item("failures", &mut own.failures)?;
+    text.number("effort before", &mut own.previous_rate)?;
+    text.number("step before", &mut own.previous_step)?;
+    text.item("on trial", &mut own.is_on_trial)?;
+    text.number("tried at", &mut own.tried_at)?;
+    text.number("spent", &mut own.spent)?;
+    let TrialClock { due, wait } = &mut own.explicit_trials;
+    text.number("explicit trial due", due)?;
+    text.maybe("wait for an explicit trial", wait)?;
+    let TrialClock { due, wait } = &mut own.implicit_trials;
+    text.number("implicit trial due", due)?;
+    text.maybe("wait for an implicit trial", wait)?;
+    text.item("failed trials", &mut own.failed_trials)
+}
+
+fn state(text: &mut Text<'_>, own: &mut State) -> Read {
     let positions = ["positions", "compensations of positions"];
     let momenta = ["momenta", "compensations of momenta"];
     let velocities = ["velocities", "compensations of velocities"];
@@ -187,88 +211,67 @@ fn state(text: &mut Text<'_>, own: Option<&State>) -> Read<State> {
         "reservoir entropies",
         "compensations of reservoir entropies",
     ];
-    Ok(State {
-        time: text.sum("time", own.map(|own| own.time))?,
-        positions: text.sums(positions, own.map(|own| &own.positions))?,
-        momenta: text.sums(momenta, own.map(|own| &own.momenta))?,
-        velocities: text.sums(velocities, own.map(|own| &own.velocities))?,
-        viscous: text.sums(viscous, own.map(|own| &own.viscous))?,
-        entropies: text.sums(entropies, own.map(|own| &own.entropies))?,
-        temperatures: text.numbers("temperatures", own.map(|own| &own.temperatures[..]))?,
-        energies: Vec::new(),
-        reservoir_entropies: text.sums(received, own.map(|own| &own.reservoir_entropies))?,
-        work: text.sum("work", own.map(|own| own.work))?,
-        heat: text.sum("heat", own.map(|own| own.heat))?,
-        thermostat_entropy: text.sum(
-            "entropy of thermostats",
-            own.map(|own| own.thermostat_entropy),
-        )?,
-        dissipated: text.sum("lost heat", own.map(|own| own.dissipated))?,
-        meters: meters(text, own.map(|own| &own.meters))?,
-    })
-}
-
-fn meters(text: &mut Text<'_>, own: Option<&Meters>) -> Read<Meters> {
+    text.sum("time", &mut own.time)?;
+    text.sums(positions, &mut own.positions)?;
+    text.sums(momenta, &mut own.momenta)?;
+    text.sums(velocities, &mut own.velocities)?;
+    text.sums(viscous, &mut own.viscous)?;
+    text.sums(entropies, &mut own.entropies)?;
+    text.numbers("temperatures", &mut own.temperatures)?;
+    text.sums(received, &mut own.reservoir_entropies)?;
+    text.sum("work", &mut own.work)?;
+    text.sum("heat", &mut own.heat)?;
+    text.sum("entropy of thermostats", &mut own.thermostat_entropy)?;
+    text.sum("lost heat", &mut own.dissipated)?;
+    let own = &mut own.meters;
     let dissipated = ["heat of dashpots", "compensations of heat of dashpots"];
     let produced = ["entropy production", "compensations of entropy production"];
     let conducted = ["conducted heat", "compensations of conducted heat"];
-    Ok(Meters {
-        are_on: text.item("meters", own.map(|own| own.are_on))?,
-        dissipated: text.sums(dissipated, own.map(|own| &own.dissipated))?,
-        produced: text.sums(produced, own.map(|own| &own.produced))?,
-        conducted: text.sums(conducted, own.map(|own| &own.conducted))?,
-    })
+    text.item("meters", &mut own.are_on)?;
+    text.sums(dissipated, &mut own.dissipated)?;
+    text.sums(produced, &mut own.produced)?;
+    text.sums(conducted, &mut own.conducted)
 }
 
-fn energies(text: &mut Text<'_>, own: Option<&SavedEnergies>) -> Read<SavedEnergies> {
-    let of = text.item("digest of the state", own.map(|own| own.of))?;
-    let own = own.map(SavedEnergies::numbers);
-    let numbers = text.numbers("energies", own.as_deref())?;
+fn energies(text: &mut Text<'_>, own: &mut SavedEnergies) -> Read {
+    text.item("digest of the state", &mut own.of)?;
+    let mut numbers = own.numbers();
+    text.numbers("energies", &mut numbers)?;
     let (energies, []) = numbers.as_chunks() else {
         return Err(text.fault("energies"));
     };
-    let list = energies
-        .iter()
-        .map(|&numbers| Energy::of(numbers))
-        .collect();
-    Ok(SavedEnergies { of, list })
+    own.list.clear();
+    for &numbers in energies {
+        own.list.push(Energy::of(numbers));
+    }
+    Ok(())
 }
 
-fn loads(text: &mut Text<'_>, own: Option<&SavedLoads>) -> Read<SavedLoads> {
-    Ok(SavedLoads {
-        forced: text.items("nodes with a force", own.map(|own| &own.forced[..]))?,
-        forces: text.numbers("forces on them", own.map(|own| &own.forces[..]))?,
-        moved: text.items("moved anchors", own.map(|own| &own.moved[..]))?,
-        velocities: text.numbers("velocities of them", own.map(|own| &own.velocities[..]))?,
-        held: text.items("thermostats", own.map(|own| &own.held[..]))?,
-        temperatures: text.numbers("temperatures of them", own.map(|own| &own.temperatures[..]))?,
-    })
+fn loads(text: &mut Text<'_>, own: &mut SavedLoads) -> Read {
+    text.items("nodes with a force", &mut own.forced)?;
+    text.numbers("forces on them", &mut own.forces)?;
+    text.items("moved anchors", &mut own.moved)?;
+    text.numbers("velocities of them", &mut own.velocities)?;
+    text.items("thermostats", &mut own.held)?;
+    text.numbers("temperatures of them", &mut own.temperatures)
 }
 
-fn past(text: &mut Text<'_>, own: Option<&SavedPast>) -> Read<SavedPast> {
-    Ok(SavedPast {
-        forces: [
-            text.numbers("last forces", own.map(|own| &own.forces[0][..]))?,
-            text.numbers("earlier forces", own.map(|own| &own.forces[1][..]))?,
-        ],
-        errors: text.array("errors of forces", own.map(|own| own.errors))?,
-        internal: text.numbers("start of the last step", own.map(|own| &own.internal[..]))?,
-    })
+fn past(text: &mut Text<'_>, own: &mut SavedPast) -> Read {
+    let [last, before] = &mut own.forces;
+    text.numbers("last forces", last)?;
+    text.numbers("earlier forces", before)?;
+    text.array("errors of forces", &mut own.errors.each_mut())?;
+    text.numbers("start of the last step", &mut own.internal)
 }
 
-fn explicit(text: &mut Text<'_>, own: Option<&SavedExplicit>) -> Read<SavedExplicit> {
-    Ok(SavedExplicit {
-        is_new: text.item("new", own.map(|own| own.is_new))?,
-        state: text.item("digest of the explicit state", own.map(|own| own.state))?,
-        is_motion_first: text.item("motion first", own.map(|own| own.is_motion_first))?,
-        targets: text.pairs("targets", own.map(|own| &own.targets[..]))?,
-        shares: text.pairs("shares of reservoirs", own.map(|own| &own.shares[..]))?,
-        largest_momentum: text.number(
-            "largest explicit momentum",
-            own.map(|own| own.largest_momentum),
-        )?,
-        residue: text.number("residue", own.map(|own| own.residue))?,
-        rates: text.numbers("rates", own.map(|own| &own.rates[..]))?,
-        loads: text.numbers("loads", own.map(|own| &own.loads[..]))?,
-    })
+fn explicit(text: &mut Text<'_>, own: &mut SavedExplicit) -> Read {
+    text.item("new", &mut own.is_new)?;
+    text.item("digest of the explicit state", &mut own.state)?;
+    text.item("motion first", &mut own.is_motion_first)?;
+    text.pairs("targets", &mut own.targets)?;
+    text.pairs("shares of reservoirs", &mut own.shares)?;
+    text.number("largest explicit momentum", &mut own.largest_momentum)?;
+    text.number("residue", &mut own.residue)?;
+    text.numbers("rates", &mut own.rates)?;
+    text.numbers("loads", &mut own.loads)
 }

@@ -14,15 +14,16 @@ use crate::algebra::system::LinearSystem;
 use crate::element::conduction::{Conduction, Partner};
 use crate::element::handle::Element;
 use crate::element::layout::Layout;
-use crate::scene::Scene;
+use crate::scene::plan::{Groups, Plan};
 
 /// The second solution corrects the rounding of the first.
 const SOLUTIONS: usize = 2;
 
 /// Replaces the temperatures of elements with paths of heat by those of thermal balance, and returns the largest heat that an
 /// element still receives, W. Elements with thermostats or without paths keep their temperatures.
-pub(super) fn balance<const D: usize>(
-    scene: &Scene<D>,
+pub(super) fn balance(
+    scene: &Plan,
+    groups: &dyn Groups,
     layout: &Layout,
     temperatures: &mut [f64],
 ) -> Result<f64, EquilibriumError> {
@@ -35,7 +36,7 @@ pub(super) fn balance<const D: usize>(
             is_fixed[slot] = true;
         }
     }
-    let element_at = |element: usize| scene.element_at(element);
+    let element_at = |element: usize| scene.element_at(element, groups);
     refuse_insulated((&conduction, layout), &is_fixed, &element_at)?;
     solve(&conduction, &is_fixed, scene.memory_limit, temperatures)
 }

@@ -11,8 +11,11 @@ use crate::run::gradient::error::GradientError;
 use crate::run::recorder::{Quantity, axis_name};
 use crate::scene::bulk::Body;
 use crate::scene::error::SceneError;
-use crate::scene::loads::{OfTime, ScalarOfTime};
+use crate::scene::loads::ScalarOfTime;
 use nalgebra::SVector;
+
+/// A vector as a function of time in s.
+pub(crate) type OfTime<const D: usize> = Arc<dyn Fn(f64) -> SVector<f64, D> + Send + Sync>;
 
 /// An input of a run, for [`Simulation::sensitivities`](crate::Simulation::sensitivities).
 ///

@@ -4,9 +4,7 @@ use core::mem;
 
 use super::start::SHORTEST;
 use super::stepper::Stepper;
-use super::{Simulation, Stepped, Tried};
-use crate::element::group::StepView;
-use crate::element::phase::Phase;
+use super::{Run, Simulation, Stepped, Tried};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::explicit::Demand;
 use crate::step::newton::StepReport;
@@ -16,38 +14,22 @@ use eem_material::number::scalar::is_positive;
 /// How often a step is halved in search of a size that succeeds.
 const HALVINGS: usize = 10;
 
-/// The data shared by all elements during a step of a size; borrows only the fields that it names.
-macro_rules! view {
-    ($simulation:ident, $step:expr, $phase:expr, $state:expr, [$loads:expr, $stages:expr]) => {
-        StepView {
-            phase: $phase,
+/// The start of a step of a size; borrows only the fields that it names.
+macro_rules! start {
+    ($run:expr, $step:expr) => {
+        crate::run::simulation::stepper::Start {
             step: $step,
-            per_step: $step.recip(),
-            state: $state,
-            conduction: &$simulation.conduction,
-            loads: $loads,
-            stages: $stages,
-            masses: &$simulation.masses,
+            state: &$run.state,
+            conduction: &$run.conduction,
+            loads: &$run.loads,
+            masses: &$run.masses,
+            least: &$run.least,
         }
     };
 }
+pub(super) use start;
 
-/// The start of an explicit step of a size; borrows only the fields that it names.
-macro_rules! explicit_view {
-    ($simulation:ident, $step:expr) => {
-        crate::step::explicit::ExplicitView {
-            step: $step,
-            state: &$simulation.state,
-            conduction: &$simulation.conduction,
-            loads: &$simulation.loads,
-            masses: &$simulation.masses,
-            least: &$simulation.least,
-        }
-    };
-}
-pub(super) use explicit_view;
-
-impl<const D: usize> Simulation<D> {
+impl Run {
     /// One step of this size. It is rejected if the scheme estimates its error and that is not within the demand.
     pub(super) fn try_step(&mut self, size: f64, demand: Demand) -> Result<Tried, StepError> {
         let found = self.find_next(size, demand);
@@ -120,7 +102,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// Writes the next state.
-    #[inline(never)]
+    #[inline]
     fn find_next(&mut self, size: f64, demand: Demand) -> Result<Attempt, StepFailure> {
         self.has_stepped = false;
         self.effort.restart();
@@ -137,38 +119,16 @@ impl<const D: usize> Simulation<D> {
             self.evaluate_loads(size)?;
         }
         let (effort, next) = (&mut self.effort, &mut *self.next);
-        let newton = match &mut self.stepper {
-            Stepper::Newton(newton) => &mut **newton,
-            Stepper::Explicit(explicit) => {
-                return explicit.step(&explicit_view!(self, size), demand, next);
-            }
-        };
-        let (groups, solver) = (&mut newton.groups, &mut newton.solver);
-        let (loads, stages) = (&newton.loads, &newton.stages);
-        let Some(intermediate) = &mut newton.intermediate else {
-            let view = view!(self, size, Phase::Whole, &self.state, [loads, stages]);
-            return Ok(Attempt::made(solver.solve(groups, &view, effort, next)?));
-        };
-        let view = view!(self, size, Phase::Mechanics, &self.state, [loads, stages]);
-        let motion = *solver.solve(groups, &view, effort, intermediate)?;
-        let view = view!(self, size, Phase::Heat, intermediate, [loads, stages]);
-        let mut whole = motion.and(*solver.solve(groups, &view, effort, next)?);
-        if whole.is_bound_wide() {
-            whole.find_terms(groups, [&self.state, next]);
-        }
-        Ok(Attempt::made(&whole))
+        self.stepper.step(&start!(self, size), demand, effort, next)
     }
 
     /// The loads of a step of this size.
     pub(super) fn evaluate_loads(&mut self, size: f64) -> Result<(), StepFailure> {
-        let span = [self.time(), size];
-        match &mut self.stepper {
-            Stepper::Newton(newton) if self.has_loads => {
-                let old = &self.state;
-                newton.evaluate_loads(&self.loads, &self.masses, self.in_use, span, old)
-            }
-            _ => Ok(()),
+        if self.has_loads {
+            let start = start!(self, size);
+            self.stepper.evaluate_loads(&start, self.in_use)?;
         }
+        Ok(())
     }
 
     /// The error with a shorter step that can be made instead, if trying finds one; the simulation is unchanged.
@@ -272,10 +232,10 @@ impl<const D: usize> Simulation<D> {
     /// ([`StepFailure::Unknowns`]).
     pub fn linearize(&mut self, unknowns: &[f64]) -> Result<StepTangent, StepError> {
         // The elements are evaluated elsewhere than at the ends of their last step.
-        self.has_stepped = false;
-        self.effort.restart();
+        self.run.has_stepped = false;
+        self.run.effort.restart();
         let found = self.find_tangent(unknowns);
-        found.map_err(|failure| self.failed(self.step, failure))
+        found.map_err(|failure| self.run.failed(self.run.step, failure))
     }
 
     fn find_tangent(&mut self, unknowns: &[f64]) -> Result<StepTangent, StepFailure> {
@@ -283,16 +243,15 @@ impl<const D: usize> Simulation<D> {
         if given != expected {
             return Err(StepFailure::Unknowns { given, expected });
         }
-        self.evaluate_loads(self.step)?;
-        let Stepper::Newton(newton) = &mut self.stepper else {
+        let run = &mut self.run;
+        run.evaluate_loads(run.step)?;
+        let Stepper::Newton(newton) = run.stepper.of_mut::<D>() else {
             // An explicit scheme solves no system.
             let (residual, tangent) = (Vec::new(), Vec::new());
             return Ok(StepTangent { residual, tangent });
         };
-        let (groups, solver) = (&mut newton.groups, &mut newton.solver);
-        let (loads, stages) = (&newton.loads, &newton.stages);
-        let view = view!(self, self.step, Phase::Whole, &self.state, [loads, stages]);
-        let (residual, tangent) = solver.linearize(groups, &view, unknowns, &mut self.effort)?;
+        let start = start!(run, run.step);
+        let (residual, tangent) = newton.linearize(&start, unknowns, &mut run.effort)?;
         Ok(StepTangent { residual, tangent })
     }
 }

@@ -1,9 +1,8 @@
 //! `Scheme::Auto`: the scheme that follows the motion with the least effort.
 
-use super::attempt::explicit_view;
+use super::attempt::start;
 use super::memory::Control;
-use super::stepper::Stepper;
-use super::{Simulation, Stepped, Tried};
+use super::{Run, Stepped, Tried};
 use crate::element::state::Energy;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
 use crate::step::automatic::{CANDIDATES, Verdict};
@@ -25,7 +24,7 @@ pub(super) struct SchemeAtWork {
     energies: Vec<Energy>,
 }
 
-impl<const D: usize> Simulation<D> {
+impl Run {
     /// An accurate step by the scheme that is likely to be the cheapest; the state is unchanged if there is none.
     pub(super) fn step_of_choice(&mut self, control: &mut Control, end: f64) -> Stepped {
         self.judge_trial(control);
@@ -117,10 +116,9 @@ impl<const D: usize> Simulation<D> {
 
     /// From time to time compares the explicit step with the limit of stability.
     fn measure_stability(&mut self, control: &Control) {
-        if let Stepper::Explicit(explicit) = &mut self.stepper
-            && self.automatic.selection.looks()
+        if self.automatic.selection.looks()
+            && let Some(share) = self.stepper.share_of_stable_step(&start!(self, self.step))
         {
-            let share = explicit.share_of_stable_step(&explicit_view!(self, self.step));
             let failures = control.memory.statistics.failures();
             self.automatic.selection.see(share, failures);
         }

@@ -3,10 +3,9 @@
 use core::error::Error;
 use core::fmt;
 
-use super::Simulation;
-use super::compiled::Functions;
 use super::start::check_tolerance;
-use super::stepper::{Memory, Stepper};
+use super::{Run, Simulation};
+use crate::algebra::indices;
 use crate::algebra::memory::TooLarge;
 use crate::element::ends::Ends;
 use crate::element::layout::Layout;
@@ -44,7 +43,7 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn with_scheme(mut self, scheme: Scheme) -> Result<Self, RefusedChange<D>> {
-        match (Functions::get().change_scheme)(&mut self, scheme) {
+        match self.run.change_scheme(scheme) {
             Ok(()) => Ok(self),
             Err(error) => Err(RefusedChange {
                 run: Box::new(self),
@@ -52,7 +51,9 @@ impl<const D: usize> Simulation<D> {
             }),
         }
     }
+}
 
+impl Run {
     /// Changes the scheme, or nothing.
     pub(super) fn change_scheme(&mut self, scheme: Scheme) -> Result<(), SceneError> {
         if scheme == self.scheme {
@@ -84,10 +85,6 @@ impl<const D: usize> Simulation<D> {
 
     /// Replaces the scheme in use, but not its step control. If there is no memory for it, nothing changes.
     pub(super) fn use_scheme(&mut self, scheme: Scheme) -> Result<(), TooLarge> {
-        (Functions::get().use_scheme)(self, scheme)
-    }
-
-    pub(super) fn use_scheme_here(&mut self, scheme: Scheme) -> Result<(), TooLarge> {
         let (layout, ends) = (self.numbering(), self.ends());
         let automatic = &mut self.automatic;
         let site = Site {
@@ -97,25 +94,10 @@ impl<const D: usize> Simulation<D> {
             conduction: &self.conduction,
             loads: &self.loads,
         };
-        let memory = Memory::new(scheme, site, automatic.memory_limit)?;
-        automatic.evaluations += self.stepper.evaluations();
-        let elements = self.stepper.take_elements();
-        let state = &mut self.state;
-        let parts = (scheme, site);
-        let stepper = Stepper::new(elements, memory, parts, state, &mut |state, elements| {
-            // As after a restart: each scheme evaluates energies in its own way.
-            for group in elements {
-                group.find_energies(state);
-            }
-            Ok(())
-        });
-        let Ok(stepper) = stepper else {
-            unreachable!("nothing was checked");
-        };
-        self.stepper = stepper;
-        if let Stepper::Explicit(explicit) = &mut self.stepper {
-            explicit.set_motion_first(automatic.is_motion_first);
-        }
+        let (evaluations, limit) = (self.stepper.evaluations(), automatic.memory_limit);
+        (self.stepper).change(scheme, site, limit, &mut self.state)?;
+        automatic.evaluations += evaluations;
+        self.stepper.set_motion_first(automatic.is_motion_first);
         self.in_use = scheme;
         self.has_stepped = false;
         Ok(())
@@ -124,7 +106,7 @@ impl<const D: usize> Simulation<D> {
     /// The numbering of the unknowns and state variables, as the scene had it.
     pub(super) fn numbering(&self) -> Layout {
         let elements = (&self.places[..], &self.shapes[..]);
-        let mut layout = entry::layout(D, &self.masses, elements);
+        let mut layout = entry::layout(self.dimension, &self.masses, elements);
         layout.couple(|slot| self.conduction.meets_slots(slot));
         layout
     }
@@ -132,8 +114,8 @@ impl<const D: usize> Simulation<D> {
     /// The nodes of all elements.
     pub(super) fn ends(&self) -> Ends {
         let mut ends = Ends::none();
-        for (_, elements, place) in self.all_elements() {
-            ends.push(elements.nodes(place).iter().copied());
+        for &place in &self.places {
+            ends.push(self.stepper.nodes(indices(place)).iter().copied());
         }
         ends
     }

@@ -1,24 +1,17 @@
 //! Simulations in one to three dimensions are compiled with this crate.
 //!
 //! Generic functions are compiled again in every optimised program that calls them: a program with one material took 30
-//! CPU seconds, and 5 without those of `Simulation`; 2 without the groups of `element/group/springs.rs`. So the work of a
-//! simulation starts in a table of functions: that of this crate or, for other dimensions, one that is compiled where it is
-//! used.
+//! CPU seconds, and 5 without those of `Simulation`; 2 without the groups of `element/group/springs.rs`. So a simulation begins
+//! in a function of this crate or, for other dimensions, in one that is compiled where it is used. From there on it is a [`Run`].
 
-use super::event::Event;
+use super::start::Outline;
 use super::stepper::Stepper;
-use super::{Simulation, Stepped};
+use super::{Run, Simulation, Stepped};
 use crate::algebra::indices;
-use crate::algebra::memory::TooLarge;
-use crate::element::conduction::Conduction;
 #[cfg(not(test))]
 use crate::element::group::springs::of_dimension;
-use crate::element::layout::Shape;
-use crate::element::masses::Masses;
-use crate::run::checkpoint::{Checkpoint, RestoreError};
-use crate::run::ledger::Ledger;
 use crate::scene::Scene;
-use crate::scene::error::SceneError;
+use crate::scene::plan::Plan;
 use crate::scene::refused::RefusedScene;
 use crate::step::control::Tolerance;
 use crate::step::error::StepError;
@@ -71,7 +64,7 @@ impl<const D: usize> Simulation<D> {
         scheme: Scheme,
         step: f64,
     ) -> Result<&mut Self, RefusedScene<D>> {
-        (Functions::get().new)(slot, scene, scheme, (step, None))
+        begin_of()(slot, scene, scheme, (step, None))
     }
 
     fn of_scene(
@@ -80,7 +73,7 @@ impl<const D: usize> Simulation<D> {
         steps: (f64, Option<Tolerance>),
     ) -> Result<Self, RefusedScene<D>> {
         let mut slot = None;
-        (Functions::get().new)(&mut slot, scene, scheme, steps)?;
+        begin_of()(&mut slot, scene, scheme, steps)?;
         Ok(slot.unwrap_or_else(|| unreachable!("it has begun")))
     }
 
@@ -137,16 +130,14 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn step(&mut self) -> Result<StepReport, StepError> {
-        self.advance(Aim::Towards(f64::INFINITY))?;
-        Ok(self.report)
+        self.run.advance(Aim::Towards(f64::INFINITY))?;
+        Ok(self.run.report)
     }
+}
 
-    /// Makes one step, whose report is in the simulation.
+impl Run {
+    /// Makes one step, whose report is in the run.
     pub(super) fn advance(&mut self, aim: Aim) -> Stepped {
-        (Functions::get().advance)(self, aim)
-    }
-
-    fn advance_here(&mut self, aim: Aim) -> Stepped {
         self.begin_meters();
         let made = match aim {
             Aim::Towards(end) | Aim::InSchemeTowards(end) if self.control.is_none() => {
@@ -165,96 +156,60 @@ impl<const D: usize> Simulation<D> {
     }
 }
 
-/// See [`end_at_event`](Simulation::end_at_event).
-type EndAtEvent<const D: usize> = fn(&mut Simulation<D>, &mut [Event<'_, D>], f64) -> Stepped;
-
 /// See [`begin`](Simulation::begin).
-type New<const D: usize> = fn(
+type Begin<const D: usize> = fn(
     &mut Option<Simulation<D>>,
     Scene<D>,
     Scheme,
     (f64, Option<Tolerance>),
 ) -> Result<&mut Simulation<D>, RefusedScene<D>>;
 
-/// The functions in which the work of a simulation starts.
-pub(super) struct Functions<const D: usize> {
-    new: New<D>,
-    advance: fn(&mut Simulation<D>, Aim) -> Stepped,
-    pub(super) end_at_event: EndAtEvent<D>,
-    pub(super) undo: fn(&mut Simulation<D>),
-    pub(super) checkpoint: fn(&Simulation<D>) -> Checkpoint,
-    pub(super) restore: fn(&mut Simulation<D>, &Checkpoint) -> Result<(), RestoreError>,
-    pub(super) change_scheme: fn(&mut Simulation<D>, Scheme) -> Result<(), SceneError>,
-    pub(super) use_scheme: fn(&mut Simulation<D>, Scheme) -> Result<(), TooLarge>,
-    pub(super) ledger: fn(&Simulation<D>) -> Ledger<D>,
-}
-
-/// Not for the unit tests of this crate, which run no simulation: everything behind a `static` is compiled, in 50 s.
+/// Not for the unit tests of this crate, which run no simulation: everything behind a `static` is compiled.
 #[cfg(not(test))]
-static LINE: Functions<1> = Functions::HERE;
+static LINE: Begin<1> = Simulation::begin;
 #[cfg(not(test))]
-static PLANE: Functions<2> = Functions::HERE;
+static PLANE: Begin<2> = Simulation::begin;
 #[cfg(not(test))]
-static SPACE: Functions<3> = Functions::HERE;
+static SPACE: Begin<3> = Simulation::begin;
 
-impl<const D: usize> Functions<D> {
-    /// Compiled where they are used.
-    const HERE: Self = Self {
-        new: Simulation::begin,
-        advance: Simulation::advance_here,
-        end_at_event: Simulation::end_at_event,
-        undo: Simulation::undo_here,
-        checkpoint: Simulation::checkpoint_here,
-        restore: Simulation::restore_here,
-        change_scheme: Simulation::change_scheme,
-        use_scheme: Simulation::use_scheme_here,
-        ledger: Simulation::ledger_here,
-    };
-
-    /// The table of this crate if it has one. A branch that a constant rules out is not compiled.
-    #[inline]
-    pub(super) fn get() -> &'static Self {
-        #[cfg(not(test))]
-        if const { 1 <= D && D <= 3 } {
-            return of_dimension(D, [&LINE, &PLANE, &SPACE]);
-        }
-        const { &Self::HERE }
+/// The function of this crate if it has one. A branch that a constant rules out is not compiled.
+#[inline]
+fn begin_of<const D: usize>() -> Begin<D> {
+    #[cfg(not(test))]
+    if const { 1 <= D && D <= 3 } {
+        return *of_dimension(D, [&LINE, &PLANE, &SPACE]);
     }
+    Simulation::begin
 }
 
 impl<const D: usize> Simulation<D> {
     /// Whether another run can begin in the memory of this one: its scene is small and has neither solids nor loads but gravity.
     pub(crate) fn is_reusable(&self) -> bool {
-        let Stepper::Newton(newton) = &self.stepper else {
+        let Stepper::Newton(newton) = self.stepper() else {
             return false;
         };
-        let is_small = newton.solver.is_renewable() && !self.masses.are_coupled();
-        is_small && self.loads.are_at_most_weight()
+        let is_small = newton.solver.is_renewable() && !self.run.masses.are_coupled();
+        is_small && self.run.loads.are_at_most_weight()
     }
+}
 
-    /// Whether a scene with these masses and paths of heat, and places and shapes of elements, stepped by this scheme, differs from that
-    /// of this run in numbers only.
-    pub(super) fn fits(
-        &self,
-        scene: &Scene<D>,
-        scheme: Scheme,
-        (masses, conduction): (&Masses, &Conduction),
-        (places, shapes): (&[[u32; 2]], &[Shape]),
-    ) -> bool {
+impl Run {
+    /// Whether a scene with this outline, stepped by this scheme, differs from that of this run in numbers only.
+    pub(super) fn fits(&self, scene: &Plan, outline: &Outline, scheme: Scheme) -> bool {
+        let masses = &outline.masses;
         let are_alike = scheme == self.in_use
-            && scene.pairs.is_empty()
+            && !masses.are_coupled()
             && scene.loads.are_at_most_weight()
             && scene.loads.have_weight() == self.loads.have_weight()
             && masses.anchors().eq(self.masses.anchors())
             && masses.len() == self.masses.len()
-            && (places, shapes) == (&self.places, &self.shapes)
-            && conduction.joins_like(&self.conduction);
+            && (&outline.places, &outline.shapes) == (&self.places, &self.shapes)
+            && outline.conduction.joins_like(&self.conduction);
         if !are_alike {
             return false;
         }
-        for (&place, entry) in places.iter().zip(&scene.elements) {
-            let [group, place] = indices(place);
-            if !are_same(self.stepper.elements(group).nodes(place), &entry.nodes) {
+        for (&place, entry) in self.places.iter().zip(&scene.entries.elements) {
+            if !are_same(self.stepper.nodes(indices(place)), &entry.nodes) {
                 return false;
             }
         }

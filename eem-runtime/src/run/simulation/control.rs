@@ -2,11 +2,9 @@
 
 use core::mem;
 
-use super::compiled::Functions;
-use super::memory::{Control, Guard, History, SMALLEST, Snapshot};
+use super::memory::{Control, Guard, History, SMALLEST, Seen, Snapshot};
 use super::start::{check_step, check_tolerance, find_speeds};
-use super::stepper::Stepper;
-use super::{Simulation, Stepped, Tried};
+use super::{Run, Simulation, Stepped, Tried};
 use crate::element::state::State;
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
@@ -14,6 +12,7 @@ use crate::step::control::{AFTER_FAILURE, StepStatistics, Tolerance, length};
 use crate::step::error::{StepError, StepFailure, StepLimit};
 use crate::step::explicit::Demand;
 use crate::step::newton::NewtonSettings;
+use crate::step::samples::Component;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::{Scalar, is_positive};
 
@@ -51,21 +50,126 @@ impl<const D: usize> Simulation<D> {
     /// ```
     pub fn control_steps(&mut self, tolerance: Tolerance) -> Result<(), SceneError> {
         // With a tolerance, errors of conduction and dashpots are seen.
-        let in_use = if self.scheme == Scheme::Auto && self.in_use.is_damped() {
-            self.automatic.needs.first(self.scheme)
+        let in_use = if self.run.scheme == Scheme::Auto && self.run.in_use.is_damped() {
+            self.run.automatic.needs.first(self.run.scheme)
         } else {
-            self.in_use
+            self.run.in_use
         };
-        check_tolerance(&tolerance, (self.scheme, in_use))?;
-        if in_use != self.in_use {
-            self.use_scheme(in_use)?;
+        check_tolerance(&tolerance, (self.run.scheme, in_use))?;
+        if in_use != self.run.in_use {
+            self.run.use_scheme(in_use)?;
         }
-        self.set_control(Some(SavedControl::new(tolerance)));
+        self.run.set_control(Some(SavedControl::new(tolerance)));
         Ok(())
     }
 
+    /// Switches step control off: all further steps have the [present size](Self::step_size) and use the [scheme in
+    /// use](Self::scheme_in_use). [`Scheme::Auto`] takes [`Scheme::EemDamped`] instead if steps of this size do not
+    /// resolve the relaxation of conduction or dashpots in the present state, until steps are controlled again.
+    pub fn fix_steps(&mut self) {
+        self.run.control = None;
+        self.run.damp_fixed_steps();
+    }
+
+    /// The tolerance of step control; `None` if it is off.
+    #[must_use]
+    pub fn tolerance(&self) -> Option<Tolerance> {
+        Some(self.run.control.as_ref()?.memory.tolerance)
+    }
+
+    /// Statistics of step control; `None` if it is off.
+    #[must_use]
+    pub fn step_statistics(&self) -> Option<StepStatistics> {
+        Some(self.run.control.as_ref()?.memory.statistics)
+    }
+
+    /// Limits the size of controlled steps, s: smallest and largest. By default there are none; but no step is below 16 ε
+    /// times the time or the last step. Where nothing moves, steps grow without limit; loads that are functions of time are
+    /// seen before they set in, see [`shortest_load`](crate::Scene::shortest_load).
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::StepLimits`] unless both are positive and finite, the first is not above the second, and steps
+    /// are [controlled](Self::control_steps). The old limits remain.
+    pub fn limit_steps(&mut self, [smallest, largest]: [f64; 2]) -> Result<(), SceneError> {
+        let is_range = smallest > 0.0 && smallest <= largest && largest < f64::MAX;
+        match &mut self.run.control {
+            Some(control) if is_range => {
+                control.memory.smallest = smallest;
+                control.memory.largest = largest;
+                Ok(())
+            }
+            control => Err(SceneError::StepLimits {
+                smallest,
+                largest,
+                is_controlled: control.is_some(),
+            }),
+        }
+    }
+
+    /// The size of the next steps, s.
+    #[must_use]
+    pub const fn step_size(&self) -> f64 {
+        self.run.step
+    }
+
+    /// Changes the size of the next steps, s. This is allowed at any time, as all laws hold step by step.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::Step`] unless it is finite and at least 2⁻⁵¹¹ s, 1.5e-154 s; the old size remains.
+    pub fn set_step_size(&mut self, step: f64) -> Result<(), SceneError> {
+        check_step(step)?;
+        self.run.step = step;
+        self.run.damp_fixed_steps();
+        Ok(())
+    }
+
+    /// Whether the explicit scheme corrects the energy of a step by motion before heat.
+    #[must_use]
+    pub fn is_motion_first(&self) -> bool {
+        self.run.is_motion_first()
+    }
+
+    /// Selects how the explicit scheme corrects the energy of a step: first by heat (default), or first by motion.
+    /// Heat is more accurate and changes the entropy production of elements in the step by at most 0.3 %; motion
+    /// leaves it unchanged. No effect on other schemes.
+    pub fn set_motion_first(&mut self, is_motion_first: bool) {
+        self.run.stepper.set_motion_first(is_motion_first);
+        if self.run.scheme == Scheme::Auto {
+            self.run.automatic.is_motion_first = is_motion_first;
+        }
+    }
+
+    /// The settings of Newton's method.
+    #[must_use]
+    pub const fn newton_settings(&self) -> NewtonSettings {
+        self.run.effort.settings
+    }
+
+    /// Changes the settings of Newton's method.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::NewtonSettings`] unless there is at least one iteration and the tolerance lies between 0 and
+    /// 1; the old settings remain.
+    pub fn set_newton_settings(&mut self, settings: NewtonSettings) -> Result<(), SceneError> {
+        self.run.set_newton_settings(settings)
+    }
+}
+
+impl Run {
+    /// Begins step control by a tolerance, or by the default one of a scheme that needs it.
+    pub(super) fn begin_control(&mut self, tolerance: Option<Tolerance>) {
+        if let Some(tolerance) = &tolerance {
+            self.find_first_step(tolerance);
+        }
+        let default = (self.scheme == Scheme::Auto).then(Tolerance::default);
+        self.set_control(tolerance.or(default).map(SavedControl::new));
+    }
+
     /// Finds the first step for a tolerance, and the velocities of moved anchors within it.
-    pub(super) fn find_first_step(&mut self, tolerance: &Tolerance) {
+    fn find_first_step(&mut self, tolerance: &Tolerance) {
         let accuracy = self.in_use.accuracy();
         let step = self.least.first_step(tolerance.relative, accuracy);
         // Longer than the rounding of the time.
@@ -77,7 +181,7 @@ impl<const D: usize> Simulation<D> {
         if self.masses.are_coupled() && find_speeds(&self.loads, span, &mut velocities).is_empty() {
             let write = |all: &mut [f64]| all.copy_from_slice(&velocities);
             self.state.velocities.write(write);
-            self.state.follow_velocities(D, &self.masses);
+            self.state.follow_velocities(self.dimension, &self.masses);
         }
     }
 
@@ -98,51 +202,11 @@ impl<const D: usize> Simulation<D> {
             memory,
             accuracy,
             horizon: None,
+            seen: Seen {
+                value: vec![0.0; self.dimension],
+                seen: vec![Component::default(); self.dimension],
+            },
             halves,
-        }
-    }
-
-    /// Switches step control off: all further steps have the [present size](Self::step_size) and use the [scheme in
-    /// use](Self::scheme_in_use). [`Scheme::Auto`] takes [`Scheme::EemDamped`] instead if steps of this size do not
-    /// resolve the relaxation of conduction or dashpots in the present state, until steps are controlled again.
-    pub fn fix_steps(&mut self) {
-        self.control = None;
-        self.damp_fixed_steps();
-    }
-
-    /// The tolerance of step control; `None` if it is off.
-    #[must_use]
-    pub fn tolerance(&self) -> Option<Tolerance> {
-        Some(self.control.as_ref()?.memory.tolerance)
-    }
-
-    /// Statistics of step control; `None` if it is off.
-    #[must_use]
-    pub fn step_statistics(&self) -> Option<StepStatistics> {
-        Some(self.control.as_ref()?.memory.statistics)
-    }
-
-    /// Limits the size of controlled steps, s: smallest and largest. By default there are none; but no step is below 16 ε
-    /// times the time or the last step. Where nothing moves, steps grow without limit; loads that are functions of time are
-    /// seen before they set in, see [`shortest_load`](crate::Scene::shortest_load).
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError::StepLimits`] unless both are positive and finite, the first is not above the second, and steps
-    /// are [controlled](Self::control_steps). The old limits remain.
-    pub fn limit_steps(&mut self, [smallest, largest]: [f64; 2]) -> Result<(), SceneError> {
-        let is_range = smallest > 0.0 && smallest <= largest && largest < f64::MAX;
-        match &mut self.control {
-            Some(control) if is_range => {
-                control.memory.smallest = smallest;
-                control.memory.largest = largest;
-                Ok(())
-            }
-            control => Err(SceneError::StepLimits {
-                smallest,
-                largest,
-                is_controlled: control.is_some(),
-            }),
         }
     }
 
@@ -182,7 +246,8 @@ impl<const D: usize> Simulation<D> {
             }
         });
         if found.is_err() {
-            let statistics = self.step_statistics();
+            let control = self.control.as_ref();
+            let statistics = control.map(|control| control.memory.statistics);
             self.restore_history(&history);
             if let (Some(control), Some(statistics)) = (&mut self.control, statistics) {
                 control.memory.statistics = statistics;
@@ -283,10 +348,6 @@ impl<const D: usize> Simulation<D> {
 
     /// Undoes the last step.
     pub(super) fn undo(&mut self) {
-        (Functions::get().undo)(self);
-    }
-
-    pub(super) fn undo_here(&mut self) {
         self.unresolved.undo();
         self.with_control(|run, control| {
             if let Some(halves) = control.and_then(|control| control.halves.as_ref()) {
@@ -361,60 +422,16 @@ impl<const D: usize> Simulation<D> {
         self.has_stepped = false;
     }
 
-    /// The size of the next steps, s.
-    #[must_use]
-    pub const fn step_size(&self) -> f64 {
-        self.step
+    pub(super) fn is_motion_first(&self) -> bool {
+        let own = self.stepper.is_motion_first();
+        let own = own.filter(|_| self.scheme != Scheme::Auto);
+        own.unwrap_or(self.automatic.is_motion_first)
     }
 
-    /// Changes the size of the next steps, s. This is allowed at any time, as all laws hold step by step.
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError::Step`] unless it is finite and at least 2⁻⁵¹¹ s, 1.5e-154 s; the old size remains.
-    pub fn set_step_size(&mut self, step: f64) -> Result<(), SceneError> {
-        check_step(step)?;
-        self.step = step;
-        self.damp_fixed_steps();
-        Ok(())
-    }
-
-    /// Whether the explicit scheme corrects the energy of a step by motion before heat.
-    #[must_use]
-    pub fn is_motion_first(&self) -> bool {
-        match &self.stepper {
-            Stepper::Explicit(explicit) if self.scheme != Scheme::Auto => {
-                explicit.is_motion_first()
-            }
-            _ => self.automatic.is_motion_first,
-        }
-    }
-
-    /// Selects how the explicit scheme corrects the energy of a step: first by heat (default), or first by motion.
-    /// Heat is more accurate and changes the entropy production of elements in the step by at most 0.3 %; motion
-    /// leaves it unchanged. No effect on other schemes.
-    pub fn set_motion_first(&mut self, is_motion_first: bool) {
-        if let Stepper::Explicit(explicit) = &mut self.stepper {
-            explicit.set_motion_first(is_motion_first);
-        }
-        if self.scheme == Scheme::Auto {
-            self.automatic.is_motion_first = is_motion_first;
-        }
-    }
-
-    /// The settings of Newton's method.
-    #[must_use]
-    pub const fn newton_settings(&self) -> NewtonSettings {
-        self.effort.settings
-    }
-
-    /// Changes the settings of Newton's method.
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError::NewtonSettings`] unless there is at least one iteration and the tolerance lies between 0 and
-    /// 1; the old settings remain.
-    pub fn set_newton_settings(&mut self, settings: NewtonSettings) -> Result<(), SceneError> {
+    pub(super) fn set_newton_settings(
+        &mut self,
+        settings: NewtonSettings,
+    ) -> Result<(), SceneError> {
         let NewtonSettings {
             max_iterations,
             tolerance,

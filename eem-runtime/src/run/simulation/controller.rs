@@ -1,18 +1,15 @@
 //! Loads that are set in the middle of a run.
 
-use super::Simulation;
-use super::stepper::Stepper;
+use super::{Run, Simulation};
 use crate::element::error::StateError;
 use crate::element::handle::{Element, Node};
 use crate::element::lineage::Lineage;
-use crate::element::loads::point;
 use crate::element::masses::Masses;
 use crate::run::checkpoint::{RestoreError, SavedLoads};
 use crate::scene::entry::infinite;
 use crate::scene::error::SceneError;
 use crate::scene::loads::{Course, VectorCourse};
 use eem_material::number::scalar::is_positive;
-use nalgebra::SVector;
 
 /// # Controllers
 ///
@@ -47,15 +44,15 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn set_force(&mut self, node: Node, force: [f64; D]) -> Result<(), SceneError> {
-        self.expect_mass(node, true, "a force")?;
+        self.run.expect_mass(node, true, "a force")?;
         if let Some((axis, value)) = infinite(&force).next() {
             return Err(SceneError::DeadLoad { node, axis, value });
         }
-        let had_none = self.loads.forces.is_empty();
-        let is_new = set(&mut self.loads.forces, node, force.into(), "force")?;
-        let rebuilt = self.reload(is_new && had_none);
+        let had_none = self.run.loads.forces.is_empty();
+        let is_new = set(&mut self.run.loads.forces, node, &force, "force")?;
+        let rebuilt = self.run.reload(is_new && had_none);
         rebuilt.inspect_err(|_| {
-            self.loads.forces.pop();
+            self.run.loads.forces.pop();
         })
     }
 
@@ -84,26 +81,18 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn set_motion(&mut self, anchor: Node, velocity: [f64; D]) -> Result<(), SceneError> {
-        self.expect_mass(anchor, false, "a prescribed motion")?;
+        self.run.expect_mass(anchor, false, "a prescribed motion")?;
         if let Some((axis, value)) = infinite(&velocity).next() {
             let node = anchor;
             return Err(SceneError::Velocity { node, axis, value });
         }
-        let is_new = set(&mut self.loads.motions, anchor, velocity.into(), "motion")?;
-        let rebuilt = self.reload(is_new);
+        let is_new = set(&mut self.run.loads.motions, anchor, &velocity, "motion")?;
+        let rebuilt = self.run.reload(is_new);
         rebuilt.inspect_err(|_| {
-            self.loads.motions.pop();
+            self.run.loads.motions.pop();
         })?;
-        self.note_home(anchor.index);
+        self.run.note_home(anchor.index);
         Ok(())
-    }
-
-    /// Remembers where an anchor is before it is moved for the first time.
-    fn note_home(&mut self, anchor: usize) {
-        if self.homes.iter().all(|&(own, _)| own != anchor) {
-            let home = point(self.state.positions.values(), anchor);
-            self.homes.push((anchor, home));
-        }
     }
 
     /// Sets the temperature that an element with a thermostat reaches at the end of the next step, K, linearly in time; it
@@ -138,19 +127,29 @@ impl<const D: usize> Simulation<D> {
         element: Element,
         temperature: f64,
     ) -> Result<(), SceneError> {
-        self.thermal_slot(element)?;
+        self.run.thermal_slot(element)?;
         if !is_positive(temperature) {
             let value = temperature;
             return Err(StateError::Temperature { element, value }.into());
         }
-        let mut all = self.loads.temperatures.iter_mut();
+        let mut all = self.run.loads.temperatures.iter_mut();
         match all.find(|(own, _)| *own == element) {
             Some((_, Course::Set(own))) => *own = temperature,
             Some(_) => return Err(given(&element, "temperature")),
             None => return Err(SceneError::NoThermostat { element }),
         }
-        self.forget_loads();
+        self.run.forget_loads();
         Ok(())
+    }
+}
+
+impl Run {
+    /// Remembers where an anchor is before it is moved for the first time.
+    fn note_home(&mut self, anchor: usize) {
+        if self.homes.iter().all(|&(own, _)| own != anchor) {
+            let own = &self.state.positions.values()[anchor * self.dimension..];
+            self.homes.push((anchor, own[..self.dimension].to_vec()));
+        }
     }
 
     /// An error unless a node is of this scene, and a mass or an anchor as required.
@@ -178,25 +177,14 @@ impl<const D: usize> Simulation<D> {
     /// Makes the next step evaluate its initial loads instead of taking those at the end of the last step.
     pub(super) fn forget_loads(&mut self) {
         self.has_loads = !self.loads.are_none();
-        if let Stepper::Explicit(explicit) = &mut self.stepper {
-            explicit.forget();
-            // As after a restart.
-            let state = &mut self.state;
-            self.stepper.each_mut(|group| group.find_energies(state));
-        }
+        self.stepper.forget(&mut self.state);
     }
 
     /// All that controllers have set.
     pub(super) fn saved_loads(&self) -> SavedLoads {
         let mut saved = SavedLoads::default();
-        for (node, force) in set_ones(&self.loads.forces) {
-            saved.forced.push(node.index);
-            saved.forces.extend(force.iter());
-        }
-        for (node, velocity) in set_ones(&self.loads.motions) {
-            saved.moved.push(node.index);
-            saved.velocities.extend(velocity.iter());
-        }
+        (saved.forced, saved.forces) = set_ones(&self.loads.forces);
+        (saved.moved, saved.velocities) = set_ones(&self.loads.motions);
         for (element, temperature) in &self.loads.temperatures {
             if let Course::Set(temperature) = temperature {
                 saved.held.push(element.index());
@@ -217,14 +205,14 @@ impl<const D: usize> Simulation<D> {
         }
         let forces = (&saved.forced[..], &saved.forces[..]);
         let motions = (&saved.moved[..], &saved.velocities[..]);
-        let are_possible = are_of(&self.masses, true, D, forces)
-            && are_of(&self.masses, false, D, motions)
+        let are_possible = are_of(&self.masses, true, self.dimension, forces)
+            && are_of(&self.masses, false, self.dimension, motions)
             && saved.temperatures.iter().all(|&theta| is_positive(theta));
         if !are_possible {
             return Err(RestoreError::Loads);
         }
-        set_all(&mut loads.forces, forces, &self.scene);
-        set_all(&mut loads.motions, motions, &self.scene);
+        set_all(&mut loads.forces, self.dimension, forces, &self.scene);
+        set_all(&mut loads.motions, self.dimension, motions, &self.scene);
         let mut temperatures = saved.temperatures.iter();
         for (_, own) in &mut loads.temperatures {
             if let (Course::Set(own), Some(saved)) = (own, temperatures.next()) {
@@ -240,23 +228,26 @@ impl<const D: usize> Simulation<D> {
 }
 
 /// The values that controllers have set.
-fn set_ones<const D: usize>(
-    all: &[(Node, VectorCourse<D>)],
-) -> impl Iterator<Item = (Node, &SVector<f64, D>)> {
-    all.iter().filter_map(|(node, course)| match course {
-        Course::Set(value) => Some((*node, value)),
-        Course::Function(_) | Course::Constant(_) => None,
-    })
+fn set_ones(all: &[(Node, VectorCourse)]) -> (Vec<usize>, Vec<f64>) {
+    let (mut nodes, mut values) = (Vec::new(), Vec::new());
+    for (node, course) in all {
+        if let Course::Set(value) = course {
+            nodes.push(node.index);
+            values.extend_from_slice(value);
+        }
+    }
+    (nodes, values)
 }
 
 /// Replaces the values that controllers have set.
-fn set_all<const D: usize>(
-    all: &mut Vec<(Node, VectorCourse<D>)>,
+fn set_all(
+    all: &mut Vec<(Node, VectorCourse)>,
+    dimension: usize,
     (nodes, values): (&[usize], &[f64]),
     scene: &Lineage,
 ) {
     all.retain(|(_, course)| !matches!(course, Course::Set(_)));
-    for (&index, &value) in nodes.iter().zip(values.as_chunks::<D>().0) {
+    for (&index, value) in nodes.iter().zip(values.chunks_exact(dimension)) {
         all.push((scene.node(index), Course::Set(value.into())));
     }
 }
@@ -274,17 +265,17 @@ fn are_of(
 }
 
 /// Sets the value of a node. True if the node had none before; an error if the scene gives its value.
-fn set<const D: usize>(
-    all: &mut Vec<(Node, VectorCourse<D>)>,
+fn set(
+    all: &mut Vec<(Node, VectorCourse)>,
     node: Node,
-    value: SVector<f64, D>,
+    value: &[f64],
     quantity: &'static str,
 ) -> Result<bool, SceneError> {
     match all.iter_mut().find(|(own, _)| *own == node) {
-        Some((_, Course::Set(own))) => *own = value,
+        Some((_, Course::Set(own))) => own.copy_from_slice(value),
         Some(_) => return Err(given(&node, quantity)),
         None => {
-            all.push((node, Course::Set(value)));
+            all.push((node, Course::Set(value.into())));
             return Ok(true);
         }
     }

@@ -45,6 +45,11 @@ type Function<'f, const D: usize> = dyn FnMut(&Simulation<D>) -> Value + 'f;
 /// ```
 pub struct Event<'f, const D: usize> {
     function: Box<Function<'f, D>>,
+    mark: Mark,
+}
+
+/// What is known of an event.
+struct Mark {
     sense: Sense,
     tolerance: f64,
     /// The function at the beginning and at the end of the step.
@@ -75,18 +80,20 @@ impl<'f, const D: usize> Event<'f, D> {
     fn new(sense: Sense, function: impl FnMut(&Simulation<D>) -> Value + 'f) -> Self {
         Self {
             function: Box::new(function),
-            sense,
-            tolerance: 0.0,
-            before: 0.0,
-            after: 0.0,
-            has_happened: false,
+            mark: Mark {
+                sense,
+                tolerance: 0.0,
+                before: 0.0,
+                after: 0.0,
+                has_happened: false,
+            },
         }
     }
 
     /// Accepts a time up to `tolerance`, s, after the change of sign; zero by default.
     #[must_use]
     pub fn within(mut self, tolerance: f64) -> Self {
-        self.tolerance = tolerance;
+        self.mark.tolerance = tolerance;
         self
     }
 
@@ -94,16 +101,16 @@ impl<'f, const D: usize> Event<'f, D> {
     /// the same time.
     #[must_use]
     pub const fn has_happened(&self) -> bool {
-        self.has_happened
+        self.mark.has_happened
     }
 }
 
 impl<const D: usize> fmt::Debug for Event<'_, D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Event")
-            .field("sense", &self.sense)
-            .field("tolerance", &self.tolerance)
-            .field("has_happened", &self.has_happened)
+            .field("sense", &self.mark.sense)
+            .field("tolerance", &self.mark.tolerance)
+            .field("has_happened", &self.mark.has_happened)
             .finish_non_exhaustive()
     }
 }

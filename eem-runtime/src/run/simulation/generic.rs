@@ -35,7 +35,7 @@ impl<const D: usize> Simulation<D> {
     /// The state z of [`Generic`].
     #[must_use]
     pub fn generic_state(&self) -> DVector<f64> {
-        let state = &self.state;
+        let state = &self.run.state;
         let mut z = self.of_masses(&state.positions);
         z.extend(self.of_masses(&state.momenta));
         for sums in [&state.viscous, &state.entropies, &state.reservoir_entropies] {
@@ -52,14 +52,14 @@ impl<const D: usize> Simulation<D> {
     /// Gradients and matrices at the present state, and the contributions of the elements.
     pub(super) fn generic_and_elements(&mut self) -> (Generic, Vec<ElementGeneric>) {
         // The elements are evaluated elsewhere than at the ends of their last step.
-        self.has_stepped = false;
-        let state = &self.state;
+        self.run.has_stepped = false;
+        let state = &self.run.state;
         let mut elements = Vec::new();
         let each = |group: &mut dyn Elements<D>| {
             group.generic_in(state, &mut |element| elements.push(element));
         };
-        self.stepper.each_mut(each);
-        let velocities = self.velocities_in(&self.state);
+        self.run.stepper.of_mut::<D>().each_mut(each);
+        let velocities = self.velocities_in(&self.run.state);
         (self.generic_from(&elements, &velocities), elements)
     }
 
@@ -67,12 +67,12 @@ impl<const D: usize> Simulation<D> {
     /// one, and for a scheme that is not a discrete GENERIC system.
     #[must_use]
     pub fn generic_of_last_step(&self) -> Option<Generic> {
-        let discrete = matches!(self.in_use, Scheme::EemEntropy | Scheme::EemTemperature);
-        if !(discrete && self.has_stepped) {
+        let discrete = matches!(self.run.in_use, Scheme::EemEntropy | Scheme::EemTemperature);
+        if !(discrete && self.run.has_stepped) {
             return None;
         }
-        let ends = [&*self.next, &*self.state];
-        let Stepper::Newton(newton) = &self.stepper else {
+        let ends = [&*self.run.next, &*self.run.state];
+        let Stepper::Newton(newton) = self.stepper() else {
             return None;
         };
         let mut elements = Vec::new();
@@ -91,7 +91,12 @@ impl<const D: usize> Simulation<D> {
         let velocity = |(node, mass): (usize, Option<f64>)| {
             mass.map_or([0.0; D], |mass| state.velocity(node, mass))
         };
-        self.masses.iter().enumerate().flat_map(velocity).collect()
+        self.run
+            .masses
+            .iter()
+            .enumerate()
+            .flat_map(velocity)
+            .collect()
     }
 
     fn generic_from(&self, elements: &[ElementGeneric], velocities: &[f64]) -> Generic {
@@ -109,11 +114,11 @@ impl<const D: usize> Simulation<D> {
             reversible[(q, p)] = 1.0;
             reversible[(p, q)] = -1.0;
         }
-        for (slot, &theta) in self.conduction.reservoirs.iter().enumerate() {
+        for (slot, &theta) in self.run.conduction.reservoirs.iter().enumerate() {
             energy_gradient[indices.reservoirs + slot] = theta;
             entropy_gradient[indices.reservoirs + slot] = 1.0;
         }
-        let mut temperatures = vec![0.0; self.layout.thermal];
+        let mut temperatures = vec![0.0; self.run.layout.thermal];
         for element in elements {
             for &(coordinate, force) in &element.forces {
                 if let Some(q) = indices.positions[coordinate] {
@@ -152,14 +157,14 @@ impl<const D: usize> Simulation<D> {
     /// `κ θ_a θ_b w wᵀ` with `w = e_a/θ_a − e_b/θ_b` for every path of heat.
     fn add_conduction(&self, indices: &Indices, temperatures: &[f64], matrix: &mut DMatrix<f64>) {
         for (slot, &theta) in temperatures.iter().enumerate() {
-            for link in self.conduction.links(slot) {
+            for link in self.run.conduction.links(slot) {
                 let (partner, other) = match link.partner {
                     // Each path between elements is listed at both ends.
                     Partner::Slot(partner) if partner < slot => continue,
                     Partner::Slot(partner) => (indices.entropies + partner, temperatures[partner]),
                     Partner::Reservoir(index) => (
                         indices.reservoirs + index,
-                        self.conduction.reservoirs[index],
+                        self.run.conduction.reservoirs[index],
                     ),
                 };
                 let w = [
@@ -172,22 +177,22 @@ impl<const D: usize> Simulation<D> {
     }
 
     pub(super) fn generic_indices(&self) -> Indices {
-        let mut positions = Vec::with_capacity(self.masses.len() * D);
+        let mut positions = Vec::with_capacity(self.run.masses.len() * D);
         let mut masses = 0;
-        for mass in self.masses.iter().flat_map(|mass| [mass; D]) {
+        for mass in self.run.masses.iter().flat_map(|mass| [mass; D]) {
             positions.push(mass.map(|_| masses));
             masses += usize::from(mass.is_some());
         }
         let viscous = 2 * masses;
-        let entropies = viscous + self.layout.viscous;
-        let reservoirs = entropies + self.layout.thermal;
+        let entropies = viscous + self.run.layout.viscous;
+        let reservoirs = entropies + self.run.layout.thermal;
         Indices {
             positions,
             momenta: masses,
             viscous,
             entropies,
             reservoirs,
-            size: reservoirs + self.conduction.reservoirs.len(),
+            size: reservoirs + self.run.conduction.reservoirs.len(),
         }
     }
 }

@@ -10,9 +10,9 @@ mod tangents;
 use core::mem;
 use core::ops::ControlFlow;
 
-use super::Simulation;
 use super::memory::Guard;
 use super::stepper::Stepper;
+use super::{Run, Simulation};
 use crate::algebra::add;
 use crate::algebra::system::LinearSystem;
 use crate::element::group::{Group, StepView};
@@ -37,17 +37,8 @@ impl<const D: usize> Simulation<D> {
     /// Keeps the states of all further steps for [`gradient`](Self::gradient). This costs memory, but changes no bit of the run;
     /// [`Scheme::Auto`] keeps a scheme through whose steps gradients can be taken.
     pub fn keep_history(&mut self, history: History) {
-        let (past, _) = self.stepper.past(&self.state);
-        self.history = Some(Box::new(Record::new(&self.state, past, history)));
-    }
-
-    /// Keeps the step that was just made.
-    pub(super) fn keep_step(&mut self, size: f64) {
-        if let Some(history) = &mut self.history
-            && history.keep(size, self.in_use, [&self.next, &self.state])
-        {
-            history.snapshot(&self.state, || self.stepper.past(&self.state).0);
-        }
+        let (past, _) = self.run.stepper.past(&self.run.state);
+        self.run.history = Some(Box::new(Record::new(&self.run.state, past, history)));
     }
 
     /// The derivatives of an objective with respect to all inputs of the run since [`keep_history`](Self::keep_history):
@@ -114,12 +105,12 @@ impl<const D: usize> Simulation<D> {
         &mut self,
         watch: impl FnMut() -> ControlFlow<()> + Send + Sync + 'static,
     ) {
-        self.watch = Some(Box::new(watch));
+        self.run.watch = Some(Box::new(watch));
     }
 
     /// Calls the function of [`watch_gradients`](Self::watch_gradients); an error if it stops the computation.
     fn look(&mut self) -> Result<(), GradientError> {
-        match self.watch.as_mut().map(|watch| watch()) {
+        match self.run.watch.as_mut().map(|watch| watch()) {
             Some(ControlFlow::Break(())) => Err(GradientError::Stopped),
             _ => Ok(()),
         }
@@ -185,13 +176,13 @@ impl<const D: usize> Simulation<D> {
         &mut self,
         act: impl FnOnce(&mut Self, &mut Record) -> Result<T, GradientError>,
     ) -> Result<T, GradientError> {
-        let taken = self.history.take();
+        let taken = self.run.history.take();
         // Also after a panic of a user's function.
         let mut guard = Guard::new((self, taken), |(run, taken)| {
             if let Some(kept) = taken {
                 kept.forget_passing();
             }
-            run.history = taken.take();
+            run.run.history = taken.take();
         });
         let (run, taken) = &mut guard.value;
         let Some(kept) = taken else {
@@ -239,7 +230,7 @@ impl<const D: usize> Simulation<D> {
     ) -> Result<Way<D>, GradientError> {
         let mut seeds = Seeds::new(kept, objectives)?;
         let mut way = self.way_back()?;
-        let [mut old, mut new] = [(); 2].map(|()| State::clone(&self.state));
+        let [mut old, mut new] = [(); 2].map(|()| State::clone(&self.run.state));
         let mut end = kept.len();
         let stop = end.saturating_sub(steps);
         self.add_seeds((end, &mut new), (kept, &mut seeds), &mut way)?;
@@ -255,7 +246,7 @@ impl<const D: usize> Simulation<D> {
             };
             let first = end - states.len();
             for at in (first.max(stop)..end).rev() {
-                states.load::<D>(at - first, &self.masses, &mut old);
+                states.load::<D>(at - first, &self.run.masses, &mut old);
                 self.reverse((kept.size(at), [&old, &new]), &mut way)?;
                 largest = largest.max(self.effect(&way.adjoint.costate, &old));
                 self.add_seeds((at, &mut old), (kept, &mut seeds), &mut way)?;
@@ -277,18 +268,23 @@ impl<const D: usize> Simulation<D> {
         let passage = self.passage();
         let found = self.no_gradient(&passage);
         let mut anchors = Vec::new();
-        if self.masses.are_coupled() {
-            let (all, are_moved) = (self.masses.anchors(), self.are_moved());
+        if self.run.masses.are_coupled() {
+            let (all, are_moved) = (self.run.masses.anchors(), self.run.are_moved());
             anchors.extend(all.map(|node| (node, are_moved[node])));
         }
-        let Stepper::Newton(newton) = &mut self.stepper else {
-            return Err(no_adjoint(self.in_use, self.time()));
+        let Stepper::Newton(newton) = self.run.stepper.of_mut::<D>() else {
+            return Err(no_adjoint(self.run.in_use, self.time()));
         };
         let system = newton.solver.tangent_mut();
         Ok(Way {
-            adjoint: Adjoint::new(&passage.layout, &self.masses, system, found.start.clone()),
-            paths: self.conduction.path_ends(),
-            by_reservoirs: vec![0.0; self.conduction.reservoirs.len()],
+            adjoint: Adjoint::new(
+                &passage.layout,
+                &self.run.masses,
+                system,
+                found.start.clone(),
+            ),
+            paths: self.run.conduction.path_ends(),
+            by_reservoirs: vec![0.0; self.run.conduction.reservoirs.len()],
             by_speeds: Vec::new(),
             passage,
             anchors,
@@ -301,7 +297,7 @@ impl<const D: usize> Simulation<D> {
     /// Takes a step back: from the derivatives with respect to its new state to those with respect to its old one.
     fn reverse(&mut self, made: Made<'_>, way: &mut Way<D>) -> Result<(), GradientError> {
         self.find_loads(made, &mut way.passage);
-        for (oven, _) in &self.loads.ovens {
+        for (oven, _) in &self.run.loads.ovens {
             // An oven keeps no entropy: what it receives is booked as heat after the step.
             way.adjoint.costate.reservoirs[*oven] = 0.0;
         }
@@ -337,8 +333,8 @@ impl<const D: usize> Simulation<D> {
     ) -> Result<(), GradientError> {
         self.look()?;
         // The elements are evaluated elsewhere than at the ends of their last step.
-        self.has_stepped = false;
-        let Stepper::Newton(newton) = &mut self.stepper else {
+        self.run.has_stepped = false;
+        let Stepper::Newton(newton) = self.run.stepper.of_mut::<D>() else {
             return Ok(());
         };
         let view = StepView {
@@ -349,7 +345,7 @@ impl<const D: usize> Simulation<D> {
             conduction: &passage.conduction,
             loads: &newton.loads,
             stages: &[],
-            masses: &self.masses,
+            masses: &self.run.masses,
         };
         let held = &passage.held;
         let past = PastStep { view, new, held };
@@ -366,17 +362,19 @@ impl<const D: usize> Simulation<D> {
 
     /// An error unless all steps of the history have an adjoint.
     fn check_history(&self, kept: &Record) -> Result<(), GradientError> {
-        for (scheme, time) in kept.schemes().chain([(self.in_use, self.time())]) {
+        for (scheme, time) in kept.schemes().chain([(self.run.in_use, self.time())]) {
             if !scheme.has_adjoint() {
                 return Err(no_adjoint(scheme, time));
             }
         }
-        let mut others = kept.schemes().filter(|&(scheme, _)| scheme != self.in_use);
+        let mut others = kept
+            .schemes()
+            .filter(|&(scheme, _)| scheme != self.run.in_use);
         if others.next().is_some() {
-            let time = kept.end_before(self.in_use);
+            let time = kept.end_before(self.run.in_use);
             return Err(GradientError::HistoryBroken { time });
         }
-        if kept.ends_in(&self.state) {
+        if kept.ends_in(&self.run.state) {
             return Ok(());
         }
         kept.check()?;
@@ -391,6 +389,17 @@ impl<const D: usize> Simulation<D> {
             + length(&costate.velocities) * length(&self.velocities_in(state))
             + length(&costate.viscous) * distance
             + length(&costate.temperatures) * length(&state.temperatures)
+    }
+}
+
+impl Run {
+    /// Keeps the step that was just made.
+    pub(super) fn keep_step(&mut self, size: f64) {
+        if let Some(history) = &mut self.history
+            && history.keep(size, self.in_use, [&self.next, &self.state])
+        {
+            history.snapshot(&self.state, || self.stepper.past(&self.state).0);
+        }
     }
 }
 

@@ -15,28 +15,26 @@
 
 use core::f64::consts::TAU;
 
-use super::attempt::explicit_view;
+use super::attempt::start;
 use super::memory::{Control, Halves, or_restore};
-use super::stepper::Stepper;
-use super::{Simulation, Stepped, Tried};
-use crate::algebra::vector;
-use crate::element::group::points;
+use super::{Run, Stepped, Tried};
+use crate::algebra::indices;
 use crate::element::handle::Node;
 use crate::element::layout::Slots;
 use crate::element::state::State;
-use crate::step::control::{Kinds, LoadRounding, Scales, Unknown, length, norm};
+use crate::step::control::{Kinds, LoadRounding, Scales, Unknown, norm};
 use crate::step::error::{StepError, WorstError};
 use crate::step::explicit::Demand;
 use eem_material::number::scalar::Scalar;
 
-impl<const D: usize> Simulation<D> {
+impl Run {
     /// Work arrays for a whole step and for its two halves.
     pub(super) fn new_halves(&self) -> Halves {
         let (past, _) = self.stepper.past(&self.state);
         let (mut slots, mut are_given) = (Vec::new(), Vec::new());
         for (node, _) in &self.loads.motions {
-            are_given.resize(self.masses.len() * D, false);
-            are_given[node.index * D..][..D].fill(true);
+            are_given.resize(self.masses.len() * self.dimension, false);
+            are_given[node.index * self.dimension..][..self.dimension].fill(true);
         }
         for (element, _) in &self.loads.temperatures {
             slots.push(self.thermal_slot(*element).ok());
@@ -67,7 +65,7 @@ impl<const D: usize> Simulation<D> {
         let ends = [&halves.before, &*self.state];
         let accurate = (accuracy, size);
         let least = (memory.largest_momentum, &self.least);
-        let scales = Scales::new(D, &memory.tolerance, accurate, ends, least);
+        let scales = Scales::new(self.dimension, &memory.tolerance, accurate, ends, least);
         if self.flies(size, &scales, accuracy.order()) {
             self.return_to(halves);
             return Ok(Tried::Rejected(f64::INFINITY));
@@ -80,7 +78,7 @@ impl<const D: usize> Simulation<D> {
             let beyond = scales.error(states, &halves.kinds, Some(&halves.rounding));
             let accurate = (memory.tolerance.relative, accuracy);
             // After a step the next state is the one before it.
-            let rests = |end| self.least.all_rest(D, [&halves.before, end]);
+            let rests = |end| self.least.all_rest(self.dimension, [&halves.before, end]);
             let rests = rests(&self.next) && rests(&self.state);
             error = if rests {
                 beyond
@@ -127,12 +125,10 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// Which viscous variables are strains of solids.
-    #[doc(hidden)]
-    #[must_use]
-    pub fn viscous_strains(&self) -> Vec<bool> {
+    pub(super) fn viscous_strains(&self) -> Vec<bool> {
         let mut are_strains = vec![false; self.layout.viscous];
-        for (shape, elements, place) in self.all_elements() {
-            let first = elements.slots(place).viscous;
+        for (place, shape) in self.all_places() {
+            let first = self.stepper.slots(place).viscous;
             are_strains[first..first + shape.dashpots].fill(!shape.is_spring);
         }
         are_strains
@@ -141,20 +137,20 @@ impl<const D: usize> Simulation<D> {
     /// The unknown with the largest error in a step of this size, which was rejected; the state is unchanged.
     #[cold]
     pub(super) fn worst_error(&mut self, control: &mut Control, size: f64) -> Option<WorstError> {
-        let (unknown, [error, allowed]) = match (&mut control.halves, &mut self.stepper) {
-            (None, Stepper::Explicit(explicit)) => {
+        let (unknown, [error, allowed]) = match &mut control.halves {
+            None => {
                 self.has_stepped = false;
-                let (view, next) = (explicit_view!(self, size), &mut *self.next);
+                let (start, next) = (start!(self, size), &mut *self.next);
                 let tolerance = &control.memory.tolerance;
-                explicit.worst_error(&view, tolerance, next).ok()??
+                self.stepper.worst_error(&start, tolerance, next)?
             }
-            (Some(halves), _) => {
+            Some(halves) => {
                 self.step_twice(halves, size).ok()?;
                 let tolerance = &control.memory.tolerance;
                 let ends = [&halves.before, &*self.state];
                 let least = (control.memory.largest_momentum, &self.least);
                 let accuracy = control.accuracy;
-                let scales = Scales::new(D, tolerance, (accuracy, size), ends, least);
+                let scales = Scales::new(self.dimension, tolerance, (accuracy, size), ends, least);
                 let states = [&halves.whole, &*self.state];
                 let span = [halves.before.time.value, size];
                 halves.rounding.find(&self.loads, &self.least, span);
@@ -162,11 +158,13 @@ impl<const D: usize> Simulation<D> {
                 self.return_to(halves);
                 worst?
             }
-            (None, Stepper::Newton(_)) => return None,
         };
         let (place, is_strain) = match unknown {
             Unknown::Position(index) | Unknown::Momentum(index) => {
-                let place = along_axis(self.scene.node(index / D), index % D);
+                let place = along_axis(
+                    self.scene.node(index / self.dimension),
+                    index % self.dimension,
+                );
                 (place, false)
             }
             Unknown::Viscous(index) => {
@@ -185,9 +183,9 @@ impl<const D: usize> Simulation<D> {
 
     /// The first element whose slots and number of dashpots satisfy a condition.
     fn element_with(&self, is_it: &dyn Fn(Slots, usize) -> bool) -> Option<String> {
-        for (shape, elements, place) in self.all_elements() {
-            if is_it(elements.slots(place), shape.dashpots) {
-                return Some(elements.handle(place).to_string());
+        for (place, shape) in self.all_places() {
+            if is_it(self.stepper.slots(place), shape.dashpots) {
+                return Some(self.stepper.handle(place).to_string());
             }
         }
         None
@@ -242,52 +240,56 @@ const LEAST_WAY: f64 = 0.25;
 /// steps order 6 turns by up to 2.6 rad in a half, at a tolerance of 1e-2.
 const NEAREST: f64 = 0.25;
 
-impl<const D: usize> Simulation<D> {
+impl Run {
     /// Whether the last step, made in two halves by a scheme of this order, flies with an element that vibrates faster than a half lasts.
     pub(super) fn flies(&self, size: f64, scales: &Scales<'_>, order: f64) -> bool {
         // After a step the next state is the one before it.
-        let start = points::<D>(scales.before().positions.values());
-        let middle = points::<D>(self.next.positions.values());
-        let end = points::<D>(self.state.positions.values());
+        let states = [scales.before(), &*self.next, &*self.state];
         let (share, least) = ((order.exp2() - 1.0).recip(), scales.position());
-        let flies = |[a, b]: [usize; 2]| {
-            let arm = |at: &[[f64; D]]| vector::<f64, D>(|axis| at[b][axis] - at[a][axis]);
-            is_flight([&arm(start), &arm(middle), &arm(end)], share, least)
+        let flies = |arm| {
+            let arms = states.map(|state| arm_in(state, arm, self.dimension));
+            is_flight(&arms, share, least)
         };
-        let mut all = self.all_elements();
-        if !all.any(|(_, elements, place)| any_arm(elements.nodes(place), &flies)) {
+        let mut all = self.places.iter();
+        if !all.any(|&place| any_arm(self.stepper.nodes(indices(place)), &flies)) {
             return false;
         }
         let mobility = |node: usize| self.masses.get(node).map_or(0.0, f64::recip);
         let mut is_found = false;
-        for group in self.stepper.all() {
-            group.stiffness(scales.before(), &mut |point| {
-                is_found |= any_arm(point.nodes, &|arm| {
-                    let rate = (point.elastic * (mobility(arm[0]) + mobility(arm[1]))).sqrt();
-                    0.5 * size * rate > TAU && flies(arm)
-                });
+        self.stepper.stiffness(scales.before(), &mut |_, point| {
+            is_found |= any_arm(point.nodes, &|arm| {
+                let rate = (point.elastic * (mobility(arm[0]) + mobility(arm[1]))).sqrt();
+                0.5 * size * rate > TAU && flies(arm)
             });
-        }
+        });
         is_found
     }
 }
 
+/// The components of an arm in a state.
+fn arm_in(state: &State, arm: [usize; 2], dimension: usize) -> impl Iterator<Item = f64> + Clone {
+    let at = state.positions.values();
+    let [from, to] = arm.map(|node| node * dimension);
+    (0..dimension).map(move |axis| at[to + axis] - at[from + axis])
+}
+
 /// Whether an arm flies, given it at the start, in the middle and at the end of a step: it makes less than a share of its way in one half
 /// or passes its other end, and more than this way, m.
-fn is_flight([start, middle, end]: [&[f64]; 3], share: f64, least: f64) -> bool {
-    let way = |from: &[f64], to: &[f64]| norm(to.iter().zip(from).map(|(to, from)| to - from));
+fn is_flight<A: Iterator<Item = f64> + Clone>(arms: &[A; 3], share: f64, least: f64) -> bool {
+    let [start, middle, end] = arms;
+    let way = |from: &A, to: &A| norm(to.clone().zip(from.clone()).map(|(to, from)| to - from));
     let (first, second) = (way(start, middle), way(middle, end));
     let most = Scalar::maximum(first, second);
-    let least = Scalar::maximum(LEAST_WAY * length(start), least);
+    let least = Scalar::maximum(LEAST_WAY * norm(start.clone()), least);
     let stands = Scalar::minimum(first, second) < share * most;
     least < most && (stands || passes(start, middle) || passes(middle, end))
 }
 
 /// Whether the straight way of an arm passes its other end nearer than [`NEAREST`] of its lengths before and after.
-fn passes(from: &[f64], to: &[f64]) -> bool {
+fn passes<A: Iterator<Item = f64> + Clone>(from: &A, to: &A) -> bool {
     let sum = |of: &dyn Fn(f64, f64) -> f64| {
-        let ends = from.iter().zip(to);
-        ends.map(|(&from, &to)| of(from, to)).sum::<f64>()
+        let ends = from.clone().zip(to.clone());
+        ends.map(|(from, to)| of(from, to)).sum::<f64>()
     };
     let way = sum(&|from, to| (to - from) * (to - from));
     let share = -sum(&|from, to| from * (to - from)) / way;

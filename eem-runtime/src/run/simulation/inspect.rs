@@ -3,16 +3,12 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::Simulation;
-use super::compiled::Functions;
 use super::stepper::Stepper;
-use crate::algebra::indices;
 use crate::element::conduction::Partner;
-use crate::element::group::{ElementView, Elements};
-use crate::element::handle::{Element, Handle, Node, Reservoir, SceneId};
+use crate::element::group::ElementView;
+use crate::element::handle::{Element, Node, Reservoir, SceneId};
 use crate::element::kinematics::SolidState;
-use crate::element::layout::{Shape, Slots};
 use crate::element::loads::point;
-use crate::element::state::State;
 use crate::run::ledger::Ledger;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
@@ -31,26 +27,26 @@ impl<const D: usize> Simulation<D> {
     /// The time, s.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.state.time.value
+        self.run.state.time.value
     }
 
     /// The scheme.
     #[must_use]
     pub const fn scheme(&self) -> Scheme {
-        self.scheme
+        self.run.scheme
     }
 
     /// The scheme of the next step; it differs from [`scheme`](Self::scheme) for [`Scheme::Auto`].
     #[must_use]
     pub const fn scheme_in_use(&self) -> Scheme {
-        self.in_use
+        self.run.in_use
     }
 
     /// Number of unknowns of the linear system in a Newton iteration; 0 for the explicit scheme.
     #[must_use]
     pub fn unknowns(&self) -> usize {
-        match &self.stepper {
-            Stepper::Newton(newton) => newton.solver.sets() * self.layout.unknowns,
+        match self.stepper() {
+            Stepper::Newton(newton) => newton.solver.sets() * self.run.layout.unknowns,
             Stepper::Explicit(_) => 0,
         }
     }
@@ -59,14 +55,14 @@ impl<const D: usize> Simulation<D> {
     /// [`restore`](Self::restore).
     #[must_use]
     pub const fn worst_step(&self) -> Option<&StepReport> {
-        self.worst.as_ref()
+        self.run.worst.as_ref()
     }
 
     /// The energy corrections of all steps so far; zero unless the scheme is explicit. [`restore`](Self::restore)
     /// resets them.
     #[must_use]
     pub const fn corrections(&self) -> &Corrections {
-        &self.corrections
+        &self.run.corrections
     }
 
     /// The position of a node, m.
@@ -75,8 +71,8 @@ impl<const D: usize> Simulation<D> {
     ///
     /// For a foreign handle.
     pub fn position(&self, node: Node) -> Result<SVector<f64, D>, SceneError> {
-        self.expect_own(&node)?;
-        Ok(point(self.state.positions.values(), node.index).into())
+        self.run.expect_own(&node)?;
+        Ok(point(self.run.state.positions.values(), node.index).into())
     }
 
     /// The momentum of a node, kg m/s. Zero for an anchor, unless it is a node of a solid.
@@ -85,8 +81,8 @@ impl<const D: usize> Simulation<D> {
     ///
     /// For a foreign handle.
     pub fn momentum(&self, node: Node) -> Result<SVector<f64, D>, SceneError> {
-        self.expect_own(&node)?;
-        Ok(point(self.state.momenta.values(), node.index).into())
+        self.run.expect_own(&node)?;
+        Ok(point(self.run.state.momenta.values(), node.index).into())
     }
 
     /// The velocity of a node, m/s. Zero for an anchor, unless it is moved in a scene that has solids with
@@ -96,14 +92,14 @@ impl<const D: usize> Simulation<D> {
     ///
     /// For a foreign handle.
     pub fn velocity(&self, node: Node) -> Result<SVector<f64, D>, SceneError> {
-        self.expect_own(&node)?;
+        self.run.expect_own(&node)?;
         Ok(self.velocity_at(node.index).into())
     }
 
     fn velocity_at(&self, node: usize) -> [f64; D] {
-        match self.masses.get(node) {
-            Some(mass) => self.state.velocity(node, mass),
-            None => point(self.state.velocities.values(), node),
+        match self.run.masses.get(node) {
+            Some(mass) => self.run.state.velocity(node, mass),
+            None => point(self.run.state.velocities.values(), node),
         }
     }
 
@@ -113,7 +109,7 @@ impl<const D: usize> Simulation<D> {
     ///
     /// For a foreign handle; [`SceneError::NotASpring`] for a point of a solid.
     pub fn stretch(&self, element: Element) -> Result<f64, SceneError> {
-        self.expect_spring(element, "stretch")?;
+        self.run.expect_spring(element, "stretch")?;
         Ok(self.view(element)?.measure)
     }
 
@@ -123,7 +119,7 @@ impl<const D: usize> Simulation<D> {
     ///
     /// As [`stretch`](Self::stretch).
     pub fn force(&self, element: Element) -> Result<f64, SceneError> {
-        self.expect_spring(element, "force")?;
+        self.run.expect_spring(element, "force")?;
         Ok(self.view(element)?.force)
     }
 
@@ -152,9 +148,12 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn solid_state(&self, point: Element) -> Result<SolidState, SceneError> {
-        self.expect_own(&point)?;
-        let [group, place] = self.place(point);
-        let state = self.stepper.elements(group).solid_state(place, &self.state);
+        self.run.expect_own(&point)?;
+        let [group, place] = self.run.place(point);
+        let state = self
+            .stepper()
+            .elements(group)
+            .solid_state(place, &self.run.state);
         state.ok_or(SolidError::NotASolid { element: point }.into())
     }
 
@@ -173,7 +172,7 @@ impl<const D: usize> Simulation<D> {
     ///
     /// For a foreign handle; [`SceneError::NotThermal`] if the element has none.
     pub fn temperature(&self, element: Element) -> Result<f64, SceneError> {
-        Ok(self.state.temperatures[self.thermal_slot(element)?])
+        Ok(self.run.state.temperatures[self.run.thermal_slot(element)?])
     }
 
     /// The entropy of an element, J/K.
@@ -182,7 +181,7 @@ impl<const D: usize> Simulation<D> {
     ///
     /// For a foreign handle; [`SceneError::NotThermal`] if the element has none.
     pub fn entropy(&self, element: Element) -> Result<f64, SceneError> {
-        Ok(self.state.entropies.values()[self.thermal_slot(element)?])
+        Ok(self.run.state.entropies.values()[self.run.thermal_slot(element)?])
     }
 
     /// The present entropy production of an element, W/K: `g²/(η θ)` of its dashpots, and `κ (θ' − θ)²/(θ θ')` of
@@ -212,16 +211,16 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn entropy_production(&self, element: Element) -> Result<f64, SceneError> {
-        let slot = self.thermal_slot(element)?;
-        let theta = self.state.temperatures[slot];
+        let slot = self.run.thermal_slot(element)?;
+        let theta = self.run.state.temperatures[slot];
         let velocity = |node| self.velocity_at(node);
-        let [group, place] = self.place(element);
-        let elements = self.stepper.elements(group);
-        let mut production = elements.dissipation(place, &self.state, &velocity) / theta;
-        for link in self.conduction.links(slot) {
+        let [group, place] = self.run.place(element);
+        let elements = self.stepper().elements(group);
+        let mut production = elements.dissipation(place, &self.run.state, &velocity) / theta;
+        for link in self.run.conduction.links(slot) {
             let (other, share) = match link.partner {
-                Partner::Slot(far) => (self.state.temperatures[far], 0.5),
-                Partner::Reservoir(far) => (self.reservoir_now(far), 1.0),
+                Partner::Slot(far) => (self.run.state.temperatures[far], 0.5),
+                Partner::Reservoir(far) => (self.run.reservoir_now(far), 1.0),
             };
             let difference = other - theta;
             production += share * link.conductance * difference * difference / (theta * other);
@@ -236,11 +235,11 @@ impl<const D: usize> Simulation<D> {
     ///
     /// For a foreign handle; [`SceneError::NoSuchDashpot`].
     pub fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<f64, SceneError> {
-        self.expect_own(&element)?;
-        let dashpots = self.shape(element).scalar_dashpots();
+        self.run.expect_own(&element)?;
+        let dashpots = self.run.shape(element).scalar_dashpots();
         SceneError::expect_dashpot(element, dashpot, dashpots)?;
-        let first = self.slots(element).viscous;
-        Ok(self.state.viscous.values()[first + dashpot])
+        let first = self.run.slots(element).viscous;
+        Ok(self.run.state.viscous.values()[first + dashpot])
     }
 
     /// The viscous strain Γ at a point of a solid. It has three dimensions also in plane strain, where Γ₃₃ flows
@@ -276,13 +275,13 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn viscous_strain(&self, point: Element) -> Result<SMatrix<f64, 3, 3>, SceneError> {
-        self.expect_own(&point)?;
-        let shape = self.shape(point);
+        self.run.expect_own(&point)?;
+        let shape = self.run.shape(point);
         if shape.viscous_strain == 0 {
             return Err(SolidError::NoViscousStrain { element: point }.into());
         }
-        let first = self.slots(point).viscous + shape.scalar_dashpots();
-        let values = &self.state.viscous.values()[first..];
+        let first = self.run.slots(point).viscous + shape.scalar_dashpots();
+        let values = &self.run.state.viscous.values()[first..];
         let mut components = [0.0; COMPONENTS];
         components[..shape.viscous_strain].copy_from_slice(&values[..shape.viscous_strain]);
         let strain = tensor(&components);
@@ -295,11 +294,11 @@ impl<const D: usize> Simulation<D> {
     ///
     /// For a foreign handle; [`SceneError::Oven`] for an [oven](crate::Scene::oven), which stores none.
     pub fn reservoir_entropy(&self, reservoir: Reservoir) -> Result<f64, SceneError> {
-        self.expect_own(&reservoir)?;
-        if self.is_oven(reservoir.index) {
+        self.run.expect_own(&reservoir)?;
+        if self.run.is_oven(reservoir.index) {
             return Err(SceneError::Oven { reservoir });
         }
-        Ok(self.state.reservoir_entropies.values()[reservoir.index])
+        Ok(self.run.state.reservoir_entropies.values()[reservoir.index])
     }
 
     /// The heat that a reservoir has received since the start, `θ_r σ_r`, J.
@@ -309,14 +308,14 @@ impl<const D: usize> Simulation<D> {
     /// As [`reservoir_entropy`](Self::reservoir_entropy).
     pub fn reservoir_heat(&self, reservoir: Reservoir) -> Result<f64, SceneError> {
         let entropy = self.reservoir_entropy(reservoir)?;
-        Ok(self.conduction.reservoirs[reservoir.index] * entropy)
+        Ok(self.run.conduction.reservoirs[reservoir.index] * entropy)
     }
 
     /// q (m) and p (kg m/s) of the masses, θ (K) and γ (m) of the elements, each in the order of creation.
     #[doc(hidden)]
     #[must_use]
     pub fn values(&self) -> [Vec<f64>; 4] {
-        let state = &self.state;
+        let state = &self.run.state;
         [
             self.of_masses(&state.positions),
             self.of_masses(&state.momenta),
@@ -328,7 +327,7 @@ impl<const D: usize> Simulation<D> {
     /// The components at all masses, node after node.
     pub(super) fn of_masses(&self, all: &Compensated) -> Vec<f64> {
         let mut own = Vec::new();
-        for (mass, values) in self.masses.iter().zip(all.values().chunks_exact(D)) {
+        for (mass, values) in self.run.masses.iter().zip(all.values().chunks_exact(D)) {
             if mass.is_some() {
                 own.extend_from_slice(values);
             }
@@ -340,15 +339,15 @@ impl<const D: usize> Simulation<D> {
     #[doc(hidden)]
     #[must_use]
     pub fn size_of_positions(&self) -> f64 {
-        length(self.state.positions.values())
+        length(self.run.state.positions.values())
     }
 
     /// `|p|₂` of the masses, the largest so far if steps are controlled, kg m/s.
     #[doc(hidden)]
     #[must_use]
     pub fn largest_momentum(&self) -> f64 {
-        let own = length(self.state.momenta.values());
-        let control = self.control.as_ref();
+        let own = length(self.run.state.momenta.values());
+        let control = self.run.control.as_ref();
         let before = control.map_or(0.0, |control| control.memory.largest_momentum);
         Scalar::maximum(own, before)
     }
@@ -357,7 +356,7 @@ impl<const D: usize> Simulation<D> {
     #[doc(hidden)]
     #[must_use]
     pub fn least_sizes(&self) -> [f64; 2] {
-        self.least.sizes()
+        self.run.least.sizes()
     }
 
     /// How often the forces of all elements have been evaluated since the simulation was made, once for each
@@ -375,42 +374,38 @@ impl<const D: usize> Simulation<D> {
     /// ```
     #[must_use]
     pub fn evaluations(&self) -> u64 {
-        self.automatic.evaluations + self.stepper.evaluations()
+        self.run.automatic.evaluations + self.run.stepper.evaluations()
     }
 
     /// Energies, entropies and momenta, computed from the state by their definitions.
     #[must_use]
     pub fn ledger(&self) -> Ledger<D> {
-        (Functions::get().ledger)(self)
+        let ledger = Ledger {
+            unresolved: self.run.unresolved.points,
+            ..self.run.ledger_in(&self.run.state)
+        };
+        ledger.with_momentum(&self.run.state)
     }
 
-    pub(super) fn ledger_here(&self) -> Ledger<D> {
-        Ledger {
-            unresolved: self.unresolved.points,
-            ..self.ledger_in(&self.state)
-        }
+    /// Which viscous variables are strains of solids.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn viscous_strains(&self) -> Vec<bool> {
+        self.run.viscous_strains()
     }
 
-    /// The ledger of a state, whatever steps led there.
-    pub(super) fn ledger_in(&self, state: &State) -> Ledger<D> {
-        let (mut groups, reservoirs) = (self.stepper.all(), &self.conduction.reservoirs);
-        let gravity = &self.loads.gravity;
-        Ledger::of(state, &self.masses, &mut groups, reservoirs, gravity)
-    }
-
-    /// An error unless an element is a spring of this scene.
-    fn expect_spring(&self, element: Element, quantity: &'static str) -> Result<(), SceneError> {
-        self.expect_own(&element)?;
-        if self.shape(element).is_spring {
-            return Ok(());
-        }
-        Err(SceneError::NotASpring { element, quantity })
+    /// The elements and their solver.
+    pub(super) fn stepper(&self) -> &Stepper<D> {
+        self.run.stepper.of()
     }
 
     fn view(&self, element: Element) -> Result<ElementView, SceneError> {
-        self.expect_own(&element)?;
-        let [group, place] = self.place(element);
-        Ok(self.stepper.elements(group).inspect(place, &self.state))
+        self.run.expect_own(&element)?;
+        let [group, place] = self.run.place(element);
+        Ok(self
+            .stepper()
+            .elements(group)
+            .inspect(place, &self.run.state))
     }
 
     /// All elements of the model with this name, the last part of its path, in the order of creation: springs, and points of
@@ -429,58 +424,22 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn elements_of(&self, model: &str) -> impl Iterator<Item = Element> {
-        let all = self.all_elements();
-        let all = all.map(|(_, elements, place)| elements.handle(place));
+        let all = self.run.all_places();
+        let all = all.map(|(place, _)| self.run.stepper.handle(place));
         all.filter(move |element| element.model() == model)
-    }
-
-    /// All elements in the order of creation: the capabilities of their group, the group, and their index there.
-    pub(super) fn all_elements(&self) -> impl Iterator<Item = (Shape, &dyn Elements<D>, usize)> {
-        self.places.iter().map(|&own| {
-            let [group, place] = indices(own);
-            (self.shapes[group], self.stepper.elements(group), place)
-        })
     }
 
     /// The numbers of nodes and elements.
     #[cfg(feature = "vtk")]
     pub(crate) fn counts(&self) -> [usize; 2] {
-        [self.state.positions.values().len() / D, self.places.len()]
-    }
-
-    pub(super) fn is_oven(&self, reservoir: usize) -> bool {
-        let mut ovens = self.loads.ovens.iter();
-        ovens.any(|&(oven, _)| oven == reservoir)
-    }
-
-    /// The capabilities of an element of this scene.
-    pub(super) fn shape(&self, element: Element) -> Shape {
-        self.shapes[self.place(element)[0]]
-    }
-
-    /// The group of an element of this scene, and its index there.
-    pub(super) fn place(&self, element: Element) -> [usize; 2] {
-        indices(self.places[element.index()])
-    }
-
-    /// The state indices of an element of this scene.
-    pub(super) fn slots(&self, element: Element) -> Slots {
-        let [group, place] = self.place(element);
-        self.stepper.elements(group).slots(place)
-    }
-
-    pub(super) fn thermal_slot(&self, element: Element) -> Result<usize, SceneError> {
-        self.expect_own(&element)?;
-        let slot = self.slots(element).thermal;
-        slot.ok_or(SceneError::NotThermal { element })
+        [
+            self.run.state.positions.values().len() / D,
+            self.run.places.len(),
+        ]
     }
 
     /// The scene from which the simulation was made.
     pub(crate) const fn scene(&self) -> SceneId {
-        self.scene.scene()
-    }
-
-    pub(super) fn expect_own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {
-        self.scene.expect(handle)
+        self.run.scene.scene()
     }
 }

@@ -9,6 +9,7 @@ use crate::step::control::{Accuracy, Kinds, LoadRounding};
 use crate::step::explicit::SavedExplicit;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
+use crate::step::samples::Component;
 use crate::step::scheme::Scheme;
 use crate::step::solver::SavedPast;
 use eem_material::number::scalar::Scalar;
@@ -39,8 +40,15 @@ pub(super) struct Control {
     pub(super) accuracy: Accuracy,
     /// The end of the run, s, for which steps look at loads before they are made; `None` if they need not.
     pub(super) horizon: Option<f64>,
+    pub(super) seen: Seen,
     /// For schemes without an estimate of their own.
     pub(super) halves: Option<Halves>,
+}
+
+/// Work arrays for the value of a load, and for what is seen of each component.
+pub(super) struct Seen {
+    pub(super) value: Vec<f64>,
+    pub(super) seen: Vec<Component>,
 }
 
 impl Control {
@@ -151,7 +159,7 @@ impl<T, F: FnOnce(&mut T)> Drop for Guard<T, F> {
 }
 
 /// Calls `act`, and `restore` if `act` fails or panics.
-pub(super) fn or_restore<T, R, E>(
+pub(super) fn or_restore<T: ?Sized, R, E>(
     value: &mut T,
     restore: impl FnOnce(&mut T),
     act: impl FnOnce(&mut T) -> Result<R, E>,

@@ -2,7 +2,7 @@
 
 use core::sync::atomic::Ordering;
 
-use super::Simulation;
+use super::{Run, Simulation};
 use crate::element::handle::{Element, HeatPath};
 use crate::element::meters::{Meters, total};
 use crate::run::checkpoint::{RestoreError, expect_count};
@@ -40,14 +40,112 @@ impl<const D: usize> Simulation<D> {
     /// ```
     pub fn meter_heat(&mut self) {
         self.request_meters();
-        self.begin_meters();
+        self.run.begin_meters();
     }
 
     /// Begins the sums at the next step.
     pub(crate) fn request_meters(&self) {
-        self.wants_meters.store(true, Ordering::Relaxed);
+        self.run.wants_meters.store(true, Ordering::Relaxed);
     }
 
+    /// A sum, zero before the sums began, if the scheme closes its balances, by which it is defined.
+    fn meter(&self, sum: impl FnOnce(&Meters) -> Sum) -> Result<Sum, SceneError> {
+        if !self.run.in_use.is_exact() {
+            let scheme = self.run.in_use.name();
+            return Err(SceneError::NotMetered { scheme });
+        }
+        let meters = Some(&self.run.state.meters).filter(|meters| meters.are_on);
+        Ok(meters.map_or(Sum::new(0.0), sum))
+    }
+
+    /// The heat that the dashpots of an element have dissipated since the sums began, J; zero before.
+    ///
+    /// A step books `η γ̇² h` for a dashpot; the explicit scheme books the integral of `g γ̇` over its stages.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle; [`SceneError::NotMetered`] for a scheme without exact balances.
+    pub fn dissipation(&self, element: Element) -> Result<f64, SceneError> {
+        Ok(self.dissipation_sum(element)?.value)
+    }
+
+    pub(crate) fn dissipation_sum(&self, element: Element) -> Result<Sum, SceneError> {
+        self.run.expect_own(&element)?;
+        self.meter(|meters| {
+            let first = self.run.slots(element).viscous;
+            let in_series = first..first + self.run.shape(element).dashpots;
+            let all = in_series.chain([self.run.layout.viscous + element.index()]);
+            total(all.map(|dashpot| meters.dissipated.sum(dashpot)))
+        })
+    }
+
+    /// The heat that one dashpot (from 0) of an element has dissipated since the sums began, J; zero before. The dashpots in
+    /// parallel with the spring count as one, the last; the components of a viscous strain come before it.
+    ///
+    /// # Errors
+    ///
+    /// As [`dissipation`](Self::dissipation); [`SceneError::NoSuchDashpot`].
+    pub fn dissipation_of(&self, element: Element, dashpot: usize) -> Result<f64, SceneError> {
+        Ok(self.dissipation_sum_of(element, dashpot)?.value)
+    }
+
+    pub(crate) fn dissipation_sum_of(
+        &self,
+        element: Element,
+        dashpot: usize,
+    ) -> Result<Sum, SceneError> {
+        self.run.expect_own(&element)?;
+        let shape = self.run.shape(element);
+        let dashpots = shape.dashpots + usize::from(shape.drag);
+        SceneError::expect_dashpot(element, dashpot, dashpots)?;
+        let index = if dashpot < shape.dashpots {
+            self.run.slots(element).viscous + dashpot
+        } else {
+            self.run.layout.viscous + element.index()
+        };
+        self.meter(|meters| meters.dissipated.sum(index))
+    }
+
+    /// The entropy that an element has produced since the sums began, J/K; zero before: that of its dashpots, of its paths of
+    /// heat to reservoirs, and half of that of its paths to other elements, which count the other half.
+    ///
+    /// # Errors
+    ///
+    /// As [`dissipation`](Self::dissipation); [`SceneError::NotThermal`] if the element has no temperature.
+    pub fn produced_entropy(&self, element: Element) -> Result<f64, SceneError> {
+        Ok(self.produced_sum(element)?.value)
+    }
+
+    pub(crate) fn produced_sum(&self, element: Element) -> Result<Sum, SceneError> {
+        let slot = self.run.thermal_slot(element)?;
+        self.meter(|meters| meters.produced.sum(slot))
+    }
+
+    /// The heat that a path has brought to the element with which it was [made](crate::Scene::conduct), from its partner, since
+    /// the sums began, J; zero before.
+    ///
+    /// # Errors
+    ///
+    /// As [`dissipation`](Self::dissipation).
+    pub fn conducted_heat(&self, path: HeatPath) -> Result<f64, SceneError> {
+        Ok(self.conducted_sum(path)?.value)
+    }
+
+    pub(crate) fn conducted_sum(&self, path: HeatPath) -> Result<Sum, SceneError> {
+        self.run.expect_own(&path)?;
+        self.meter(|meters| {
+            let (link, is_second) = self.run.conduction.path(path.index);
+            let Sum { value, carry } = meters.conducted.sum(link);
+            let sign = if is_second { -1.0 } else { 1.0 };
+            Sum {
+                value: sign * value,
+                carry: sign * carry,
+            }
+        })
+    }
+}
+
+impl Run {
     /// Begins the sums if they are wanted and have not begun.
     #[inline]
     pub(super) fn begin_meters(&mut self) {
@@ -75,101 +173,5 @@ impl<const D: usize> Simulation<D> {
             expect_count(quantity, own[index], expected[index])?;
         }
         Ok(())
-    }
-
-    /// A sum, zero before the sums began, if the scheme closes its balances, by which it is defined.
-    fn meter(&self, sum: impl FnOnce(&Meters) -> Sum) -> Result<Sum, SceneError> {
-        if !self.in_use.is_exact() {
-            let scheme = self.in_use.name();
-            return Err(SceneError::NotMetered { scheme });
-        }
-        let meters = Some(&self.state.meters).filter(|meters| meters.are_on);
-        Ok(meters.map_or(Sum::new(0.0), sum))
-    }
-
-    /// The heat that the dashpots of an element have dissipated since the sums began, J; zero before.
-    ///
-    /// A step books `η γ̇² h` for a dashpot; the explicit scheme books the integral of `g γ̇` over its stages.
-    ///
-    /// # Errors
-    ///
-    /// For a foreign handle; [`SceneError::NotMetered`] for a scheme without exact balances.
-    pub fn dissipation(&self, element: Element) -> Result<f64, SceneError> {
-        Ok(self.dissipation_sum(element)?.value)
-    }
-
-    pub(crate) fn dissipation_sum(&self, element: Element) -> Result<Sum, SceneError> {
-        self.expect_own(&element)?;
-        self.meter(|meters| {
-            let first = self.slots(element).viscous;
-            let in_series = first..first + self.shape(element).dashpots;
-            let all = in_series.chain([self.layout.viscous + element.index()]);
-            total(all.map(|dashpot| meters.dissipated.sum(dashpot)))
-        })
-    }
-
-    /// The heat that one dashpot (from 0) of an element has dissipated since the sums began, J; zero before. The dashpots in
-    /// parallel with the spring count as one, the last; the components of a viscous strain come before it.
-    ///
-    /// # Errors
-    ///
-    /// As [`dissipation`](Self::dissipation); [`SceneError::NoSuchDashpot`].
-    pub fn dissipation_of(&self, element: Element, dashpot: usize) -> Result<f64, SceneError> {
-        Ok(self.dissipation_sum_of(element, dashpot)?.value)
-    }
-
-    pub(crate) fn dissipation_sum_of(
-        &self,
-        element: Element,
-        dashpot: usize,
-    ) -> Result<Sum, SceneError> {
-        self.expect_own(&element)?;
-        let shape = self.shape(element);
-        let dashpots = shape.dashpots + usize::from(shape.drag);
-        SceneError::expect_dashpot(element, dashpot, dashpots)?;
-        let index = if dashpot < shape.dashpots {
-            self.slots(element).viscous + dashpot
-        } else {
-            self.layout.viscous + element.index()
-        };
-        self.meter(|meters| meters.dissipated.sum(index))
-    }
-
-    /// The entropy that an element has produced since the sums began, J/K; zero before: that of its dashpots, of its paths of
-    /// heat to reservoirs, and half of that of its paths to other elements, which count the other half.
-    ///
-    /// # Errors
-    ///
-    /// As [`dissipation`](Self::dissipation); [`SceneError::NotThermal`] if the element has no temperature.
-    pub fn produced_entropy(&self, element: Element) -> Result<f64, SceneError> {
-        Ok(self.produced_sum(element)?.value)
-    }
-
-    pub(crate) fn produced_sum(&self, element: Element) -> Result<Sum, SceneError> {
-        let slot = self.thermal_slot(element)?;
-        self.meter(|meters| meters.produced.sum(slot))
-    }
-
-    /// The heat that a path has brought to the element with which it was [made](crate::Scene::conduct), from its partner, since
-    /// the sums began, J; zero before.
-    ///
-    /// # Errors
-    ///
-    /// As [`dissipation`](Self::dissipation).
-    pub fn conducted_heat(&self, path: HeatPath) -> Result<f64, SceneError> {
-        Ok(self.conducted_sum(path)?.value)
-    }
-
-    pub(crate) fn conducted_sum(&self, path: HeatPath) -> Result<Sum, SceneError> {
-        self.expect_own(&path)?;
-        self.meter(|meters| {
-            let (link, is_second) = self.conduction.path(path.index);
-            let Sum { value, carry } = meters.conducted.sum(link);
-            let sign = if is_second { -1.0 } else { 1.0 };
-            Sum {
-                value: sign * value,
-                carry: sign * carry,
-            }
-        })
     }
 }

@@ -1,9 +1,8 @@
 //! Saving and restoring checkpoints: whether the scene can have a saved state at its time.
 
-use super::Simulation;
-use super::compiled::Functions;
 use super::memory::Unresolved;
 use super::start::check_tolerance;
+use super::{Run, Simulation};
 use crate::element::conduction::{Conduction, Partner};
 use crate::element::masses::Masses;
 use crate::element::state::State;
@@ -38,19 +37,36 @@ impl<const D: usize> Simulation<D> {
     /// ```
     #[must_use]
     pub fn checkpoint(&self) -> Checkpoint {
-        (Functions::get().checkpoint)(self)
+        self.run.checkpoint()
     }
 
-    pub(super) fn checkpoint_here(&self) -> Checkpoint {
+    /// Restores a saved state, of this simulation or of one of the same scene in another process. Nodes, elements
+    /// and reservoirs must have been created in the same order.
+    ///
+    /// # Errors
+    ///
+    /// [`RestoreError`] if the checkpoint has another scheme, belongs to another scene (shape, materials, masses,
+    /// conductances, reservoirs, gravity), or contains a state that no run of this scene can have: an entropy that
+    /// does not match the temperature, an anchor in another place, a value that is not finite. The simulation is
+    /// unchanged then.
+    ///
+    /// Prescribed motions and temperatures are evaluated at the time of the checkpoint for this comparison.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError> {
+        self.run.restore(checkpoint)
+    }
+}
+
+impl Run {
+    pub(super) fn checkpoint(&self) -> Checkpoint {
         let (past, explicit) = self.stepper.past(&self.state);
         let elements = (&self.places[..], &self.shapes[..]);
         let reservoirs = self.conduction.reservoirs.len();
         Checkpoint {
             scheme: self.scheme,
-            outline: Outline::new(D, &self.masses, elements, reservoirs),
+            outline: Outline::new(self.dimension, &self.masses, elements, reservoirs),
             numbers: self.numbers(),
             step: self.step,
-            newton: self.newton_settings(),
+            newton: self.effort.settings,
             control: self.control.as_ref().map(|control| control.memory),
             choice: self.saved_choice(),
             state: State {
@@ -73,22 +89,7 @@ impl<const D: usize> Simulation<D> {
         .sealed()
     }
 
-    /// Restores a saved state, of this simulation or of one of the same scene in another process. Nodes, elements
-    /// and reservoirs must have been created in the same order.
-    ///
-    /// # Errors
-    ///
-    /// [`RestoreError`] if the checkpoint has another scheme, belongs to another scene (shape, materials, masses,
-    /// conductances, reservoirs, gravity), or contains a state that no run of this scene can have: an entropy that
-    /// does not match the temperature, an anchor in another place, a value that is not finite. The simulation is
-    /// unchanged then.
-    ///
-    /// Prescribed motions and temperatures are evaluated at the time of the checkpoint for this comparison.
-    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError> {
-        (Functions::get().restore)(self, checkpoint)
-    }
-
-    pub(super) fn restore_here(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError> {
+    pub(super) fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError> {
         let (before, loads) = (self.scheme_at_work(), self.saved_loads());
         let saved = self.choice_in(checkpoint)?;
         if let Some(saved) = saved.filter(|saved| saved.scheme != before.scheme) {
@@ -109,7 +110,7 @@ impl<const D: usize> Simulation<D> {
 
     /// Restores a checkpoint whose scheme is in use.
     fn restore_in_scheme(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError> {
-        checkpoint.check(&self.checkpoint_here())?;
+        checkpoint.check(&self.checkpoint())?;
         self.audit(&checkpoint.state, checkpoint.step)?;
         if let Some(control) = &checkpoint.control {
             check_tolerance(&control.tolerance, (self.scheme, self.in_use))?;
@@ -117,14 +118,14 @@ impl<const D: usize> Simulation<D> {
         self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
         self.state.copy_from(&checkpoint.state);
-        self.state.follow_velocities(D, &self.masses);
+        self.state.follow_velocities(self.dimension, &self.masses);
         let state = &mut self.state;
         let SavedEnergies { of, list } = &checkpoint.energies;
         if *of == state.digest() && list.len() == state.energies.len() {
             state.energies.copy_from_slice(list);
         } else {
             // The state has been edited, or the scheme is explicit.
-            self.stepper.each_mut(|group| group.find_energies(state));
+            self.stepper.find_energies(state);
         }
         self.worst = None;
         self.corrections = Corrections::none();
@@ -146,15 +147,11 @@ impl<const D: usize> Simulation<D> {
             reservoirs[*index] = temperature(self.start);
         }
         Numbers {
-            materials: Digest::of(|digest| {
-                for group in self.stepper.all() {
-                    group.digest(digest);
-                }
-            }),
+            materials: Digest::of(|digest| self.stepper.digest(digest)),
             masses: digest_of_masses(&self.masses),
             conductances: digest_of_paths(&self.conduction, self.state.temperatures.len()),
             reservoirs: digest_of(&reservoirs),
-            gravity: digest_of(self.loads.gravity.as_slice()),
+            gravity: digest_of(&self.loads.gravity),
         }
     }
 
@@ -169,12 +166,10 @@ impl<const D: usize> Simulation<D> {
         }
         self.audit_meters(&state.meters)?;
         self.audit_anchors(state, step)?;
-        audit_velocities(D, state, &self.masses, &self.are_moved())?;
+        audit_velocities(self.dimension, state, &self.masses, &self.are_moved())?;
         self.audit_thermostats(state)?;
-        for group in self.stepper.all() {
-            group.audit(state)?;
-        }
-        let infinite = self.ledger_in(state).infinite_entry();
+        self.stepper.audit(state)?;
+        let infinite = self.ledger_in(state).infinite_entry(state, self.dimension);
         infinite.map_or(Ok(()), |(quantity, value, unit)| {
             Err(RestoreError::Total {
                 quantity,
@@ -206,9 +201,10 @@ impl<const D: usize> Simulation<D> {
         for (node, home) in &self.homes {
             homes[*node] = Some(home);
         }
+        let mut place = vec![0.0; self.dimension];
         for node in self.masses.anchors() {
-            for axis in 0..D {
-                let at = node * D + axis;
+            for axis in 0..self.dimension {
+                let at = node * self.dimension + axis;
                 let momentum = not_zero(state.momenta.sum(at));
                 if let Some(value) = momentum.filter(|_| !self.masses.are_coupled()) {
                     return Err(RestoreError::AnchorMomentum { node, axis, value });
@@ -219,8 +215,11 @@ impl<const D: usize> Simulation<D> {
                     // The position depends on what controllers have set before.
                     Some(Course::Set(_)) => continue,
                     Some(Course::Function(by)) => {
-                        let by = |time: f64| by(time)[axis];
-                        (follows(&by, value, [time, begin], scale), by(time))
+                        let mut by = |time: f64| {
+                            by(time, &mut place);
+                            place[axis]
+                        };
+                        (follows(&mut by, value, [time, begin], scale), by(time))
                     }
                     Some(Course::Constant(_)) | None => {
                         #[expect(clippy::float_cmp, reason = "nothing has moved it")]
@@ -253,7 +252,7 @@ impl<const D: usize> Simulation<D> {
             let Course::Function(temperature) = temperature else {
                 continue;
             };
-            if !follows(&**temperature, own, [time; 2], own) {
+            if !follows(&mut |time| temperature(time), own, [time; 2], own) {
                 return Err(RestoreError::Thermostat {
                     element: *element,
                     checkpoint: own,
@@ -345,7 +344,12 @@ fn not_zero(Sum { value, carry }: Sum) -> Option<f64> {
 /// The function may have been evaluated a few roundings before or after the time. Its values there are compared only if
 /// its value at the time does not explain the value. The scale of a position includes the function at the beginning of
 /// the step, because the step added the difference.
-fn follows(function: &dyn Fn(f64) -> f64, value: f64, [time, begin]: [f64; 2], scale: f64) -> bool {
+fn follows(
+    function: &mut dyn FnMut(f64) -> f64,
+    value: f64,
+    [time, begin]: [f64; 2],
+    scale: f64,
+) -> bool {
     let now = function(time);
     let roundings = MOTION_ROUNDINGS * f64::EPSILON;
     let bound = roundings * Scalar::maximum(scale, now.abs());
@@ -353,7 +357,7 @@ fn follows(function: &dyn Fn(f64) -> f64, value: f64, [time, begin]: [f64; 2], s
         return true;
     }
     let distance = TIME_ROUNDINGS * f64::EPSILON * time;
-    let ends = [time - distance, time + distance].map(function);
+    let ends = [time - distance, time + distance].map(&mut *function);
     let begin = function(begin);
     let bound = Scalar::maximum(bound, roundings * begin.abs());
     let low = ends.into_iter().fold(now, Scalar::minimum) - bound;

@@ -1,57 +1,67 @@
 //! The rules for the scheme and the step of a run, and the initial state of its scene.
 
 use crate::algebra::vector;
-use crate::element::group::Elements;
+use crate::element::conduction::Conduction;
+use crate::element::ends::Ends;
+use crate::element::group::{ElementTotals, Elements};
 use crate::element::handle::{Element, Node};
-use crate::element::layout::Layout;
+use crate::element::layout::{Layout, Shape};
+use crate::element::masses::Masses;
 use crate::element::meters::Meters;
 use crate::element::state::{Energy, State};
 use crate::run::ledger::Ledger;
-use crate::scene::Scene;
-use crate::scene::entry::{ElementEntry, NodeEntry};
+use crate::scene::entry::ElementEntry;
 use crate::scene::error::{RocketError, SceneError};
-use crate::scene::loads::{Course, Loads, Written, written};
+use crate::scene::loads::{Course, SceneLoads, Written};
+use crate::scene::plan::{Groups, Plan};
 use crate::scene::solid_error::SolidError;
 use crate::step::automatic::FIRST;
 use crate::step::control::Tolerance;
 use crate::step::explicit::Site;
 use crate::step::features::Feature;
 use crate::step::scheme::{Closing, Scheme};
+use crate::step::solver::Effort;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::derivative::{derivative, shares};
-use nalgebra::SVector;
 
 /// The initial state, without entropies, in the memory of one with as many entries if there is some: with velocities if the first
 /// step, s, is given, else at rest. Errors for motions without an initial velocity.
-pub(crate) fn initial_state<const D: usize>(
-    scene: &Scene<D>,
+pub(crate) fn initial_state(
+    scene: &Plan,
     layout: &Layout,
     step: Option<f64>,
     used: Option<Box<State>>,
 ) -> Result<Box<State>, Vec<SceneError>> {
-    let coordinates = scene.nodes.len() * D;
-    let is_coupled = !scene.pairs.is_empty();
+    let coordinates = scene.entries.positions.len();
+    let is_coupled = !scene.entries.pairs.is_empty();
     let velocities = if is_coupled { coordinates } else { 0 };
     let counts = [coordinates, velocities, scene.reservoirs.len()];
     let mut state = cleared_state(counts, layout, used);
     state.time = Sum::new(scene.start);
-    set_internal(&scene.elements, layout, &mut state);
-    let (moves, still) = (step.is_some(), SVector::from([0.0; D]));
-    let positions = &mut state.positions;
-    positions.write(|all| write_points(all, scene, &|node| node.position));
+    set_internal(&scene.entries.elements, layout, &mut state);
+    let moves = step.is_some();
+    (state.positions).write(|all| all.copy_from_slice(&scene.entries.positions));
     state.momenta.write(|all| {
-        write_points(all, scene, &|node| {
-            let momentum = node.start_momentum(node.mass.unwrap_or(0.0));
-            if moves { momentum } else { still }
-        });
+        write_points(
+            all,
+            scene,
+            &|node, own| match scene.entries.nodes[node].mass {
+                Some(mass) if moves => scene.find_momentum(node, mass, own),
+                _ => own.fill(0.0),
+            },
+        );
     });
     let mut errors = Vec::new();
     if is_coupled {
         state.velocities.write(|all| {
-            write_points(all, scene, &|node| match node.mass.filter(|_| moves) {
-                Some(_) => node.velocity,
-                None => still,
-            });
+            write_points(
+                all,
+                scene,
+                &|node, own| match scene.entries.nodes[node].mass {
+                    Some(_) if moves => own.copy_from_slice(scene.velocity(node)),
+                    _ => own.fill(0.0),
+                },
+            );
             if let Some(step) = step {
                 errors = find_speeds(&scene.loads, [scene.start, step], all);
             }
@@ -120,19 +130,15 @@ fn set_internal(elements: &[ElementEntry], layout: &Layout, state: &mut State) {
 }
 
 /// Writes a vector for each node of a scene.
-fn write_points<const D: usize>(
-    all: &mut [f64],
-    scene: &Scene<D>,
-    of: &dyn Fn(&NodeEntry<D>) -> SVector<f64, D>,
-) {
-    for (own, node) in all.as_chunks_mut::<D>().0.iter_mut().zip(&scene.nodes) {
-        *own = of(node).into();
+fn write_points(all: &mut [f64], scene: &Plan, write: &dyn Fn(usize, &mut [f64])) {
+    for (node, own) in all.chunks_exact_mut(scene.dimension()).enumerate() {
+        write(node, own);
     }
 }
 
 /// Writes the initial velocities of all motions; the errors of those that have none.
-pub(super) fn find_speeds<const D: usize>(
-    loads: &Loads<D>,
+pub(super) fn find_speeds(
+    loads: &SceneLoads,
     span: [f64; 2],
     velocities: &mut [f64],
 ) -> Vec<SceneError> {
@@ -141,8 +147,9 @@ pub(super) fn find_speeds<const D: usize>(
         let Course::Function(motion) = motion else {
             continue;
         };
-        let speeds = &mut velocities[node.index * D..][..D];
-        find_speed(&written(motion), span, speeds);
+        let dimension = loads.dimension();
+        let speeds = &mut velocities[node.index * dimension..][..dimension];
+        find_speed(&**motion, span, speeds);
         for (axis, speed) in speeds.iter().enumerate() {
             if !speed.is_finite() {
                 errors.push(SolidError::AnchorSpeed { node: *node, axis }.into());
@@ -179,9 +186,12 @@ pub(super) fn find_entropies<const D: usize>(
     }
     if errors.is_empty() {
         let (reservoirs, gravity) = (&site.conduction.reservoirs, &site.loads.gravity);
-        let mut groups = elements.iter().map(|group| &**group);
-        let ledger = Ledger::of(state, site.masses, &mut groups, reservoirs, gravity);
-        let infinite = ledger.infinite_entry();
+        let mut totals = ElementTotals::new();
+        for group in elements {
+            group.add_totals(state, &mut totals);
+        }
+        let ledger = Ledger::of(state, site.masses, &totals, reservoirs, gravity);
+        let infinite = ledger.infinite_entry(state, D);
         errors.extend(infinite.map(|(quantity, value, unit)| SceneError::Total {
             quantity,
             value,
@@ -192,6 +202,80 @@ pub(super) fn find_entropies<const D: usize>(
         Ok(())
     } else {
         Err(errors)
+    }
+}
+
+/// How the parts of a scene are numbered and joined.
+pub(super) struct Outline {
+    pub(super) masses: Masses,
+    /// The nodes of the elements.
+    ends: Ends,
+    pub(super) places: Vec<[u32; 2]>,
+    pub(super) shapes: Vec<Shape>,
+    pub(super) layout: Layout,
+    pub(super) conduction: Conduction,
+}
+
+impl Outline {
+    pub(super) fn new(scene: &Plan, shapes: Vec<Shape>) -> Self {
+        let (masses, places) = (scene.masses(), scene.places());
+        let (layout, conduction) = scene.numbering(&masses, (&places, &shapes));
+        Self {
+            masses,
+            ends: scene.ends(),
+            places,
+            shapes,
+            layout,
+            conduction,
+        }
+    }
+
+    /// The same, for a scheme.
+    pub(super) fn site<'a>(&'a self, loads: &'a SceneLoads) -> Site<'a, 0> {
+        Site {
+            masses: &self.masses,
+            elements: &self.ends,
+            layout: &self.layout,
+            conduction: &self.conduction,
+            loads,
+        }
+    }
+}
+
+/// What a run has before its first step, except for entropies.
+pub(super) struct FirstState {
+    pub(super) effort: Effort,
+    pub(super) state: Box<State>,
+    /// Memory for another state, if there is some.
+    pub(super) next: Option<Box<State>>,
+}
+
+/// What is left of another run of the same kind.
+pub(super) struct Used {
+    pub(super) effort: Effort,
+    pub(super) state: Box<State>,
+    pub(super) next: Box<State>,
+}
+
+impl FirstState {
+    /// With velocities for this first step, s.
+    pub(super) fn new(
+        scene: &Plan,
+        outline: &Outline,
+        step: f64,
+        used: Option<Used>,
+    ) -> Result<Self, Vec<SceneError>> {
+        let (effort, state, next) = match used {
+            Some(used) => (used.effort, Some(used.state), Some(used.next)),
+            None => (Effort::new(), None, None),
+        };
+        let mut state = initial_state(scene, &outline.layout, Some(step), state)?;
+        state.follow_velocities(scene.dimension(), &outline.masses);
+        Ok(Self {
+            effort,
+            state,
+            next,
+        })
     }
 }
 
@@ -207,16 +291,14 @@ pub(super) struct Needs {
 
 impl Needs {
     /// The features of this scene.
-    pub(super) fn of<const D: usize>(scene: &Scene<D>) -> Self {
-        let group = |index: usize| scene.groups.get(index);
-        let has_drag = |index| group(index).is_some_and(|group| group.shape().drag);
-        let mut elements = scene.elements.iter();
-        let drag = elements.position(|entry| has_drag(entry.group));
-        let mut groups = scene.groups.iter();
+    pub(super) fn of(scene: &Plan, groups: &dyn Groups, shapes: &[Shape]) -> Self {
+        let mut elements = scene.entries.elements.iter();
+        let has_drag = |shape: &Shape| shape.drag;
+        let drag = elements.position(|entry| shapes.get(entry.group).is_some_and(has_drag));
         Self {
-            has_solids: groups.any(|group| !group.shape().is_spring),
+            has_solids: shapes.iter().any(|shape| !shape.is_spring),
             rocket: scene.loads.rockets.first().map(|rocket| rocket.line.node),
-            drag: drag.map(|index| scene.element_at(index)),
+            drag: drag.map(|index| scene.element_at(index, groups)),
         }
     }
 
@@ -227,6 +309,19 @@ impl Needs {
             Scheme::Auto => first.find(|&scheme| self.allows(scheme)).unwrap_or(asked),
             own => own,
         }
+    }
+
+    /// Adds the errors of a run with these schemes, set and in use, and its steps.
+    pub(super) fn check_run(
+        &self,
+        schemes: (Scheme, Scheme),
+        (step, tolerance): (f64, Option<Tolerance>),
+        errors: &mut Vec<SceneError>,
+    ) {
+        errors.extend(self.check(schemes.1).err());
+        errors.extend(check_step(step).err());
+        let checked = tolerance.map_or(Ok(()), |own| check_tolerance(&own, schemes));
+        errors.extend(checked.err());
     }
 
     /// Whether a scheme can step the scene.

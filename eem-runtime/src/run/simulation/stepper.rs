@@ -1,20 +1,21 @@
 //! The elements of a scene with the solver of its scheme.
 
-use core::mem;
-
 use crate::algebra::memory::{MemoryLimit, TooLarge};
-use crate::element::group::{Elements, ExplicitGroup, Group, Loose, Placed};
+use crate::element::group::{Elements, ExplicitGroup, Group, Loose, Placed, StepView};
 use crate::element::loads::StepLoads;
-use crate::element::masses::Masses;
+use crate::element::phase::Phase;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
 use crate::scene::error::SceneError;
-use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
-use crate::step::explicit::{Explicit, SavedExplicit, Site};
+use crate::step::explicit::{Explicit, ExplicitView, Site};
+use crate::step::outcome::Attempt;
 use crate::step::scheme::{Closing, Scheme};
-use crate::step::solver::{SavedPast, Solver};
+use crate::step::solver::{Effort, Solver};
 use crate::step::systems::Systems;
+
+/// A step from the present state, or another one of its size, whatever the dimension.
+pub(super) type Start<'a> = ExplicitView<'a, 0>;
 
 /// The elements of a scene without a scheme, a set per model.
 type Models<const D: usize> = Vec<Box<dyn Loose<D>>>;
@@ -24,7 +25,7 @@ type Begin<'a, const D: usize> =
     &'a mut dyn FnMut(&mut State, &mut [&mut dyn Elements<D>]) -> Result<(), Vec<SceneError>>;
 
 /// What becomes of each of these.
-fn each<T, U>(all: Vec<T>, mut change: impl FnMut(T) -> U) -> Vec<U> {
+pub(super) fn each<T, U>(all: Vec<T>, mut change: impl FnMut(T) -> U) -> Vec<U> {
     let mut changed = Vec::with_capacity(all.len());
     for own in all {
         changed.push(change(own));
@@ -112,56 +113,10 @@ impl<const D: usize> Stepper<D> {
         Ok(Self::Newton(newton))
     }
 
-    /// Takes the elements out of the stepper, which cannot step afterwards.
-    pub(super) fn take_elements(&mut self) -> Models<D> {
+    pub(super) fn explicit(&mut self) -> Option<&mut Explicit<D>> {
         match self {
-            Self::Newton(newton) => each(mem::take(&mut newton.groups), Group::into_loose),
-            Self::Explicit(explicit) => explicit.take_elements(),
-        }
-    }
-
-    /// How often all elements have been evaluated, at all stages.
-    pub(super) fn evaluations(&self) -> u64 {
-        match self {
-            Self::Newton(newton) => {
-                let stages = u64::try_from(newton.stages.len().max(1)).unwrap_or(u64::MAX);
-                newton.solver.evaluations().saturating_mul(stages)
-            }
-            Self::Explicit(explicit) => explicit.evaluations(),
-        }
-    }
-
-    /// The history on which the step from this state depends.
-    pub(super) fn past(&self, state: &State) -> (SavedPast, Option<SavedExplicit>) {
-        match self {
-            Self::Newton(newton) => (newton.solver.past(), None),
-            Self::Explicit(explicit) => (SavedPast::none(), Some(explicit.save(state))),
-        }
-    }
-
-    /// Overwrites a saved history of Newton's method.
-    pub(super) fn save_past_to(&self, past: &mut SavedPast) {
-        if let Self::Newton(newton) = self {
-            newton.solver.save_past_to(past);
-        }
-    }
-
-    /// Continues from a saved history.
-    pub(super) fn restore(&mut self, past: &SavedPast, saved: Option<&SavedExplicit>) {
-        match self {
-            Self::Newton(newton) => newton.solver.restore(past),
-            Self::Explicit(explicit) => match saved {
-                Some(saved) => explicit.restore(saved),
-                None => explicit.forget(),
-            },
-        }
-    }
-
-    /// Undoes the effect of the last step on the history.
-    pub(super) fn undo(&mut self) {
-        match self {
-            Self::Newton(newton) => newton.solver.undo(),
-            Self::Explicit(explicit) => explicit.undo(),
+            Self::Newton(_) => None,
+            Self::Explicit(explicit) => Some(explicit),
         }
     }
 
@@ -232,29 +187,84 @@ impl<const D: usize> Newton<D> {
         newton
     }
 
-    /// Evaluates the loads of the step from `time` by `step`, from the old state.
-    pub(super) fn evaluate_loads(
+    /// Writes the state after a step.
+    pub(super) fn step(
         &mut self,
-        loads: &Loads<D>,
-        masses: &Masses,
-        scheme: Scheme,
-        [time, step]: [f64; 2],
-        old: &State,
-    ) -> Result<(), StepFailure> {
-        let span = [time, step];
-        let Some(rule) = scheme.tableau() else {
-            return self.loads.evaluate(loads, masses, span, old);
+        start: &Start<'_>,
+        effort: &mut Effort,
+        next: &mut State,
+    ) -> Result<Attempt, StepFailure> {
+        let loads = (&self.loads, &self.stages[..]);
+        let (groups, solver) = (&mut self.groups, &mut self.solver);
+        let Some(intermediate) = &mut self.intermediate else {
+            let view = view_of(start, Phase::Whole, start.state, loads);
+            return Ok(Attempt::made(solver.solve(groups, &view, effort, next)?));
         };
-        self.loads.evaluate_supports(loads, (span, 1.0), old)?;
-        for (stage, &share) in self.stages.iter_mut().zip(rule.times) {
-            let time = loads.inside(span, time + share * step);
-            stage.evaluate_forces_at(loads, masses, time)?;
+        let view = view_of(start, Phase::Mechanics, start.state, loads);
+        let motion = *solver.solve(groups, &view, effort, intermediate)?;
+        let view = view_of(start, Phase::Heat, intermediate, loads);
+        let mut whole = motion.and(*solver.solve(groups, &view, effort, next)?);
+        if whole.is_bound_wide() {
+            whole.find_terms(groups, [start.state, next]);
         }
-        // The paths of elements have their own times for supports.
-        let supports = rule.path.map_or(rule.times, |path| path.supports.times);
-        for (stage, &share) in self.stages.iter_mut().zip(supports) {
-            stage.evaluate_supports(loads, ([time, share * step], share), old)?;
-        }
-        Ok(())
+        Ok(Attempt::made(&whole))
+    }
+
+    /// Residual and tangent of a step at given unknowns.
+    pub(super) fn linearize(
+        &mut self,
+        start: &Start<'_>,
+        unknowns: &[f64],
+        effort: &mut Effort,
+    ) -> Result<(Vec<f64>, Vec<f64>), StepFailure> {
+        let loads = (&self.loads, &self.stages[..]);
+        let view = view_of(start, Phase::Whole, start.state, loads);
+        let groups = &mut self.groups;
+        self.solver.linearize(groups, &view, unknowns, effort)
+    }
+}
+
+/// Evaluates the loads of a step, and those at its stages if the scheme has several.
+pub(super) fn evaluate_loads(
+    (whole, stages): (&mut StepLoads, &mut [StepLoads]),
+    start: &Start<'_>,
+    scheme: Scheme,
+) -> Result<(), StepFailure> {
+    let (loads, masses, old) = (start.loads, start.masses, start.state);
+    let (time, step) = (old.time.value, start.step);
+    let span = [time, step];
+    let Some(rule) = scheme.tableau() else {
+        return whole.evaluate(loads, masses, span, old);
+    };
+    whole.evaluate_supports(loads, (span, 1.0), old)?;
+    for (stage, &share) in stages.iter_mut().zip(rule.times) {
+        let time = loads.inside(span, time + share * step);
+        stage.evaluate_forces_at(loads, masses, time)?;
+    }
+    // The paths of elements have their own times for supports.
+    let supports = rule.path.map_or(rule.times, |path| path.supports.times);
+    for (stage, &share) in stages.iter_mut().zip(supports) {
+        stage.evaluate_supports(loads, ([time, share * step], share), old)?;
+    }
+    Ok(())
+}
+
+/// The data shared by all elements during a step.
+#[inline]
+fn view_of<'a>(
+    start: &Start<'a>,
+    phase: Phase,
+    state: &'a State,
+    (loads, stages): (&'a StepLoads, &'a [StepLoads]),
+) -> StepView<'a> {
+    StepView {
+        phase,
+        step: start.step,
+        per_step: start.step.recip(),
+        state,
+        conduction: start.conduction,
+        loads,
+        stages,
+        masses: start.masses,
     }
 }

@@ -1,13 +1,13 @@
 //! Loads that a step under control would pass over, and times at which steps end.
 
-use super::Simulation;
-use super::memory::Control;
+use super::Run;
+use super::memory::{Control, Seen};
 use crate::element::conjugates::end_weight;
-use crate::scene::loads::{Loads, ScalarOfTime, Written, inside, written, written_scalar};
-use crate::step::control::{Controller, LeastScales, Scales};
+use crate::scene::loads::{ScalarOfTime, SceneLoads, Written, inside, written_scalar};
+use crate::step::control::{Accuracy, Controller, LeastScales, Scales, Tolerance};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::load_rule::LoadRule;
-use crate::step::samples::{Component, Grid, MOST};
+use crate::step::samples::{Grid, MOST};
 use crate::step::scheme::Scheme;
 use crate::step::timed::TimedLoad;
 use eem_material::number::scalar::{Scalar, is_positive};
@@ -26,13 +26,13 @@ const FEW: f64 = 0.5;
 /// Roundings between a time and one at which steps end, in ε: as between the last full step and the end of a run.
 const STOP_ROUNDINGS: f64 = 4.0;
 
-impl<const D: usize> Simulation<D> {
+impl Run {
     /// The first load that a step of this size would pass over, in a run to the end that `control` knows.
     ///
     /// Functions of time are called in the step only, at times that depend on its start, its size and that end.
     pub(super) fn unseen_load(
         &self,
-        control: &Control,
+        control: &mut Control,
         size: f64,
     ) -> Result<Option<TimedLoad>, StepError> {
         let Some(horizon) = control.horizon.filter(|_| self.has_loads) else {
@@ -49,18 +49,20 @@ impl<const D: usize> Simulation<D> {
         // The fewest samples if the run has no end.
         let longest = if longest.is_finite() { longest } else { size };
         // The scales of the error of a step that changes nothing.
-        let (memory, accurate) = (&control.memory, (control.accuracy, size));
-        let least = (memory.largest_momentum, &self.least);
+        let (tolerance, accuracy) = (&control.memory.tolerance, control.accuracy);
+        let accurate = (accuracy, size);
+        let least = (control.memory.largest_momentum, &self.least);
         let mut lookout = Lookout {
             grid: Grid::new([self.time(), size], longest),
-            scales: Scales::new(D, &memory.tolerance, accurate, [&self.state; 2], least),
-            control,
+            scales: Scales::new(self.dimension, tolerance, accurate, [&self.state; 2], least),
+            tolerance,
+            accuracy,
             least: &self.least,
             scheme: self.in_use,
             stops: &self.loads.stops,
             // A shorter step is cheaper than so many samples.
             are_too_many: size > f64::from(MOST) * longest,
-            memory: (&mut [0.0; D], &mut [Component::default(); D]),
+            memory: &mut control.seen,
         };
         let passed = if is_short {
             lookout.first_oven(&self.loads.ovens)
@@ -121,7 +123,8 @@ fn lag(x: f64, change: f64) -> f64 {
 /// What decides whether a step passes over a load.
 struct Lookout<'a> {
     grid: Grid,
-    control: &'a Control,
+    tolerance: &'a Tolerance,
+    accuracy: Accuracy,
     scales: Scales<'a>,
     least: &'a LeastScales,
     scheme: Scheme,
@@ -129,20 +132,16 @@ struct Lookout<'a> {
     stops: &'a [f64],
     /// Whether there are more samples than are looked at, so that every load counts as passed over.
     are_too_many: bool,
-    /// For the value of a load, and for what is seen of each component.
-    memory: (&'a mut [f64], &'a mut [Component]),
+    memory: &'a mut Seen,
 }
 
 impl Lookout<'_> {
     /// The first load that the step passes over.
-    fn first<const D: usize>(
-        &mut self,
-        loads: &Loads<D>,
-    ) -> Result<Option<TimedLoad>, StepFailure> {
+    fn first(&mut self, loads: &SceneLoads) -> Result<Option<TimedLoad>, StepFailure> {
         for (node, course) in &loads.forces {
             let load = TimedLoad::Force(*node);
             if let Some(of) = course.function()
-                && self.passes_over(load, &written(of))?
+                && self.passes_over(load, &**of)?
             {
                 return Ok(Some(load));
             }
@@ -156,7 +155,7 @@ impl Lookout<'_> {
         for (anchor, course) in &loads.motions {
             let load = TimedLoad::Motion(*anchor);
             if let Some(of) = course.function()
-                && self.passes_over(load, &written(of))?
+                && self.passes_over(load, &**of)?
             {
                 return Ok(Some(load));
             }
@@ -192,7 +191,7 @@ impl Lookout<'_> {
             return Ok(true);
         }
         let (grid, stops) = (&self.grid, self.stops);
-        let tolerance = &self.control.memory.tolerance;
+        let tolerance = self.tolerance;
         let is_vector = matches!(load, TimedLoad::Force(_) | TimedLoad::Motion(_));
         let is_thermal = matches!(load, TimedLoad::Temperature(_) | TimedLoad::Oven(_));
         let is_valid = if is_thermal {
@@ -208,7 +207,7 @@ impl Lookout<'_> {
                 None => Ok(()),
             }
         };
-        let (value, seen) = (&mut *self.memory.0, &mut *self.memory.1);
+        let Seen { value, seen } = &mut *self.memory;
         let components = if is_vector { value.len() } else { 1 };
         let mut look = grid.look(&of, &mut value[..components], &mut seen[..components])?;
         let height = match load {
@@ -219,7 +218,7 @@ impl Lookout<'_> {
         if look.misses_height(height) {
             return Ok(true);
         }
-        let order = self.control.accuracy.order_of_halves();
+        let order = self.accuracy.order_of_halves();
         let (rule, allowed) = match load {
             TimedLoad::Force(node) | TimedLoad::Thrust(node) => (
                 LoadRule::of_forces(self.scheme, order),

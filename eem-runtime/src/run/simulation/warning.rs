@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use super::Simulation;
 use super::memory::Unresolved;
+use super::{Run, Simulation};
 use crate::algebra::ascending;
 use crate::element::handle::Element;
 use crate::step::scheme::Scheme;
@@ -49,20 +49,6 @@ impl fmt::Display for Warning {
 }
 
 impl<const D: usize> Simulation<D> {
-    /// Notes that the last step did not resolve a relaxation.
-    #[cold]
-    pub(super) fn note_unresolved(&mut self) {
-        let report = &self.report;
-        let largest = Scalar::maximum(self.unresolved.largest, report.step);
-        self.unresolved = Unresolved {
-            steps: self.unresolved.steps + 1,
-            points: self.unresolved.points + report.unresolved as u64,
-            last: report.unresolved,
-            largest,
-            scheme: self.in_use,
-        };
-    }
-
     /// Why the result of the steps so far may mislead although every one has kept its laws; `None` if nothing speaks for it,
     /// and while a tolerance [controls](Self::control_steps) the steps: then their errors are known.
     ///
@@ -89,11 +75,11 @@ impl<const D: usize> Simulation<D> {
     /// ```
     #[must_use]
     pub fn warning(&self) -> Option<Warning> {
-        let seen = self.unresolved;
-        if seen.steps == 0 || self.control.is_some() {
+        let seen = self.run.unresolved;
+        if seen.steps == 0 || self.run.control.is_some() {
             return None;
         }
-        let (relaxation, element) = self.fastest_relaxation()?;
+        let (relaxation, element) = self.run.fastest_relaxation()?;
         Some(Warning::Unresolved {
             element,
             relaxation,
@@ -102,6 +88,22 @@ impl<const D: usize> Simulation<D> {
             scheme: seen.scheme,
         })
     }
+}
+
+impl Run {
+    /// Notes that the last step did not resolve a relaxation.
+    #[cold]
+    pub(super) fn note_unresolved(&mut self) {
+        let report = &self.report;
+        let largest = Scalar::maximum(self.unresolved.largest, report.step);
+        self.unresolved = Unresolved {
+            steps: self.unresolved.steps + 1,
+            points: self.unresolved.points + report.unresolved as u64,
+            last: report.unresolved,
+            largest,
+            scheme: self.in_use,
+        };
+    }
 
     /// The shortest relaxation time in the present state, s, and its element: of a dashpot, or `c/(2 Σ κ to elements + Σ κ to
     /// reservoirs)` of a conduction unless a thermostat prescribes the temperature.
@@ -109,27 +111,20 @@ impl<const D: usize> Simulation<D> {
         let held = self.loads.temperatures.iter();
         let held = ascending(held.map(|(element, _)| element.index()).collect());
         let mut fastest: Option<(f64, Element)> = None;
-        for elements in self.stepper.all() {
-            let mut place = 0;
-            elements.stiffness(
-                &self.state,
-                &mut (|point| {
-                    let element = elements.handle(place);
-                    place += 1;
-                    let mut rate = point.relaxation;
-                    if let Some((slot, capacity)) = point.capacity
-                        && held.binary_search(&element.index()).is_err()
-                    {
-                        let settling = self.conduction.settling(slot);
-                        rate = rate.max(2.0 * settling / capacity);
-                    }
-                    let time = rate.recip();
-                    if time.is_finite() && fastest.is_none_or(|(least, _)| time < least) {
-                        fastest = Some((time, element));
-                    }
-                }),
-            );
-        }
+        self.stepper.stiffness(&self.state, &mut |place, point| {
+            let element = self.stepper.handle(place);
+            let mut rate = point.relaxation;
+            if let Some((slot, capacity)) = point.capacity
+                && held.binary_search(&element.index()).is_err()
+            {
+                let settling = self.conduction.settling(slot);
+                rate = rate.max(2.0 * settling / capacity);
+            }
+            let time = rate.recip();
+            if time.is_finite() && fastest.is_none_or(|(least, _)| time < least) {
+                fastest = Some((time, element));
+            }
+        });
         fastest
     }
 }

@@ -113,9 +113,9 @@ fn components(tensor: &SMatrix<f64, 3, 3>) -> [f64; 6] {
 /// The cells of a scene in the order of creation, then the nodes that belong to none.
 pub(super) fn cells<const D: usize>(scene: &Scene<D>) -> Vec<Cell> {
     let mut cells = Vec::new();
-    let mut is_alone = vec![true; scene.nodes.len()];
+    let mut is_alone = vec![true; scene.plan.entries.nodes.len()];
     let mut next = 0;
-    while let Some(entry) = scene.elements.get(next) {
+    while let Some(entry) = scene.plan.entries.elements.get(next) {
         // An invalid solid has no group; the scene is rejected for it.
         let Some(group) = scene.groups.get(entry.group) else {
             next += 1;
@@ -138,7 +138,7 @@ pub(super) fn cells<const D: usize>(scene: &Scene<D>) -> Vec<Cell> {
         });
         next += points;
     }
-    let alone = (0..scene.nodes.len()).filter(|&node| is_alone[node]);
+    let alone = (0..scene.plan.entries.nodes.len()).filter(|&node| is_alone[node]);
     cells.extend(alone.map(|node| Cell {
         nodes: vec![node],
         kind: kind(1, D),

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use crate::algebra::{length, norm};
 use crate::element::conduction::{Conduction, Partner};
 
-use crate::element::group::{Elements, Stiffness};
+use crate::element::group::Stiffness;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::step::control::controller::{Accuracy, ROUNDINGS};
@@ -73,18 +73,19 @@ pub(crate) struct AtNode {
     mass: f64,
 }
 
+/// Calls a function with each point of all elements in a state.
+type EachPoint<'a> = &'a dyn Fn(&State, &mut dyn FnMut(Stiffness<'_>));
+
 impl LeastScales {
     /// Of elements in a state with this acceleration of free fall, m/s², and these anchors, in ascending order, that are moved by
     /// functions of time.
-    pub(crate) fn new<'a, const D: usize>(
-        groups: impl Iterator<Item = &'a dyn Elements<D>>,
+    pub(crate) fn new(
+        elements: EachPoint<'_>,
         (masses, conduction): (&Masses, &Conduction),
         (state, gravity, moved): (&State, f64, &[usize]),
     ) -> Self {
         let mut found = Around::new(state, (masses, conduction), moved);
-        for group in groups {
-            group.stiffness(state, &mut |point| found.see(&point));
-        }
+        elements(state, &mut |point| found.see(&point));
         found.scales(gravity)
     }
 

@@ -3,7 +3,7 @@
 use core::mem;
 
 use crate::algebra::{length, norm};
-use crate::scene::loads::{Loads, Written, inside, written, written_scalar};
+use crate::scene::loads::{Course, OfTime, SceneLoads, Written, inside, written_scalar};
 use crate::step::control::controller::ROUNDINGS;
 use crate::step::control::least::LeastScales;
 use eem_material::number::scalar::Scalar;
@@ -34,6 +34,8 @@ pub(crate) struct LoadRounding {
     temperatures: Vec<f64>,
     /// The thermal slots of prescribed temperatures, in the order of the loads.
     slots: Vec<Option<usize>>,
+    /// Memory for two values of a load.
+    values: Vec<f64>,
 }
 
 /// What it explains at a node.
@@ -49,8 +51,8 @@ pub(crate) struct NodeRounding {
 impl LoadRounding {
     /// Memory for the loads of a scene with so many nodes and thermal slots, given the slots of its prescribed temperatures; none where
     /// there are no loads.
-    pub(crate) fn new<const D: usize>(
-        loads: &Loads<D>,
+    pub(crate) fn new(
+        loads: &SceneLoads,
         slots: Vec<Option<usize>>,
         [nodes, thermal]: [usize; 2],
     ) -> Self {
@@ -64,6 +66,7 @@ impl LoadRounding {
             nodes: vec![NodeRounding::default(); nodes],
             temperatures: vec![0.0; thermal],
             slots,
+            values: vec![0.0; 2 * loads.dimension()],
         }
     }
 
@@ -73,19 +76,14 @@ impl LoadRounding {
     }
 
     /// Finds it for a step of the size `span[1]` from the time `span[0]`.
-    pub(crate) fn find<const D: usize>(
-        &mut self,
-        loads: &Loads<D>,
-        least: &LeastScales,
-        span: [f64; 2],
-    ) {
+    pub(crate) fn find(&mut self, loads: &SceneLoads, least: &LeastScales, span: [f64; 2]) {
         let [start, h] = span;
         let time = TIMES * f64::EPSILON * Scalar::maximum(start.abs(), (start + h).abs());
         let rounding = ROUNDINGS * f64::EPSILON;
         self.nodes.fill(NodeRounding::default());
         self.temperatures.fill(0.0);
-        let mut memory = [[0.0; D]; 2];
-        let mut of_vector = |of| terms(&loads.stops, span, &written(of), memory.as_flattened_mut());
+        let values = &mut self.values;
+        let mut of_vector = |of: &OfTime| terms(&loads.stops, span, &**of, values);
         let of_scalar = |of| terms(&loads.stops, span, &written_scalar(of), &mut [0.0; 2]);
         let nodes = &mut self.nodes;
         let mut push = |node: usize, [size, rate]: [f64; 2]| {
@@ -93,9 +91,11 @@ impl LoadRounding {
             nodes[node].impulse += duration * (rounding * size + time * rate);
         };
         for (node, force) in &loads.forces {
-            let constant = || length(force.position(start, &[0.0; D], 1.0).as_slice());
-            let terms = force.function().map(&mut of_vector);
-            push(node.index, terms.unwrap_or_else(|| [constant(), 0.0]));
+            let terms = match force {
+                Course::Function(of) => of_vector(of),
+                Course::Constant(force) | Course::Set(force) => [length(force), 0.0],
+            };
+            push(node.index, terms);
         }
         for rocket in &loads.rockets {
             push(rocket.line.node.index, of_scalar(&rocket.thrust));

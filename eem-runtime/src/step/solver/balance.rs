@@ -73,6 +73,11 @@ impl<const D: usize> Balance<D> {
         self.per_mass = self.mass.recip();
     }
 
+    /// Its first row in the tangent.
+    pub(super) fn row(&self) -> usize {
+        self.row as usize
+    }
+
     /// Its rows of a vector of the tangent.
     #[inline]
     pub(super) fn rows<'a>(&self, vector: &'a [[f64; 1]]) -> &'a [f64; D] {

@@ -44,7 +44,7 @@ impl<const D: usize> Search<'_, D> {
             force: &mut solver.old_force,
             lengths: &mut solver.lengths,
             before: match start {
-                Start::Predicted => solver.past.before(view.step),
+                Start::Predicted => solver.past.history.before(view.step),
                 Start::Motion | Start::Rest | Start::RestByFactors => None,
             },
             by_factors: start == Start::RestByFactors,
@@ -127,7 +127,7 @@ impl<const D: usize> Solver<D> {
         let is_at_rest = matches!(start, Start::Rest | Start::RestByFactors);
         let is_predicted = !is_at_rest && view.phase.moves() && !self.scheme.is_classical();
         let half_step = 0.5 * view.step;
-        let predictor = self.past.predictor();
+        let predictor = self.past.history.predictor();
         let rule = self.scheme.tableau();
         for node in &mut self.nodes {
             let set = &self.sets[node.set as usize];
@@ -162,19 +162,31 @@ impl<const D: usize> Solver<D> {
 
     #[inline(never)]
     fn couple_sets(&mut self, view: &StepView<'_>) {
-        let (inertia, moving) = (self.inertias(view), self.moving());
-        let (values, right) = self.tangent.parts();
-        for (set, nodes) in self.nodes.chunks(moving).enumerate() {
-            let nodes = (nodes, &self.trial);
-            self.coupling
-                .balance(set, nodes, inertia[set], values, right);
+        let inertias = self.inertias(view);
+        for (set, &inertia) in inertias.iter().enumerate().take(self.sets.len()) {
+            self.find_factors(set);
+            let first = self.nodes_of_set(set).first().map_or(0, Balance::row);
+            let (values, right) = self.tangent.parts();
+            let right = &mut right.as_flattened_mut()[first..];
+            self.coupling.balance(set, inertia, values, right);
+        }
+    }
+
+    /// Prepares the impulses of the displacements beyond flight in a set, where masses couple nodes.
+    pub(super) fn find_factors(&mut self, set: usize) {
+        let nodes = &self.nodes[self.range_of_set(set)];
+        let factors = self.coupling.factors.as_chunks_mut::<D>().0;
+        for (node, factors) in nodes.iter().zip(factors.chunks_exact_mut(2)) {
+            let [moved, _] = node.moved(&self.trial);
+            factors[0] = node.change(&self.trial);
+            factors[1] = vector(|axis| moved[axis].abs());
         }
     }
 
     /// Removes the last step from the history of the predictor.
     pub(crate) fn undo(&mut self) {
         if !self.scheme.is_classical() {
-            self.past.forget();
+            self.past.history.forget();
         }
     }
 

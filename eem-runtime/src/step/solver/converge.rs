@@ -163,8 +163,12 @@ impl<const D: usize> Search<'_, D> {
             let system = goes_on.then_some(&mut self.solver.tangent);
             group.evaluate(self.view, trial, system)?;
         }
+        if self.solver.rockets.are_none() || !self.view.phase.moves() {
+            return Ok(());
+        }
         let system = goes_on.then_some(&mut self.solver.tangent);
-        self.solver.rockets.evaluate(self.view, trial, system)
+        let displacements = |stage: usize| trial.displacements_of_set(stage).as_flattened();
+        (self.solver.rockets).evaluate(self.view, &displacements, system)
     }
 }
 

@@ -8,37 +8,43 @@
 //! positions alone, so that they do not oscillate from step to step.
 
 use super::balance::Balance;
-use crate::algebra::{add, combined, difference, indices, vector};
-use crate::element::group::{Sites, StepView, Trial};
+use crate::algebra::{add, indices};
+use crate::element::group::{StepView, Trial};
 use crate::element::masses::Masses;
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Path, Tableau};
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Scalar;
 
-/// The masses that couple nodes of a scene, with the indices of their matrix entries.
+/// The masses that couple nodes of a scene, with the indices of their matrix entries. Vectors are stored component after
+/// component, so that this is compiled once for all dimensions.
 #[derive(Debug)]
-pub(super) struct Coupling<const D: usize> {
+pub(super) struct Coupling {
+    dimension: usize,
     /// The pairs of moving nodes.
     pairs: Vec<CoupledPair>,
     /// Their entries of the tangent, set after set: rows of the first node, then rows of the second.
-    places: Vec<[[u32; D]; 2]>,
+    places: Vec<u32>,
     /// One per moving node that is coupled to moved anchors.
-    drives: Vec<Drive<D>>,
-    /// `Δp` of the moving nodes, and the magnitude of its terms, N s; empty unless masses couple nodes.
-    impulses: Vec<[[f64; D]; 2]>,
+    drives: Vec<Drive>,
+    /// The masses of the moving nodes, kg; empty unless masses couple nodes, like the next two.
+    masses: Vec<f64>,
+    /// The vectors by which masses are multiplied, and their magnitudes, per moving node.
+    pub(super) factors: Vec<f64>,
+    /// `Δp` of the moving nodes, and the magnitude of its terms, N s.
+    impulses: Vec<f64>,
+    /// Memory for vectors at the stages.
+    changes: Vec<f64>,
 }
 
 /// `Σ_m M_am Δv_m` of a moving node a that is coupled to moved anchors m, and the magnitude of its terms, N s.
 #[derive(Clone, Debug)]
-struct Drive<const D: usize> {
+struct Drive {
     /// The index of the node among the moving nodes.
     node: usize,
     /// The anchors with their masses, kg.
     anchors: Vec<(usize, f64)>,
-    /// In the rows of each set of unknowns.
-    of_sets: [[[f64; D]; 2]; MOST_SETS],
-    /// In the whole step.
-    of_step: [[f64; D]; 2],
+    /// In the rows of each set of unknowns, and in the whole step.
+    sums: Vec<f64>,
 }
 
 /// Two coupled moving nodes, by their indices among the moving nodes.
@@ -49,93 +55,101 @@ struct CoupledPair {
     mass: f64,
 }
 
-impl CoupledPair {
-    fn indices(&self) -> [usize; 2] {
-        indices(self.nodes)
-    }
-}
-
-impl<const D: usize> Coupling<D> {
-    /// The coupling of a scene with this number of sets of unknowns, given the moved anchors in ascending order.
+impl Coupling {
+    /// The coupling of a scene with these unknowns of nodes and this number of sets of them, given the moved anchors in ascending
+    /// order; `place` returns the index of the matrix entry of two unknowns of a set.
     pub(super) fn new(
+        dimension: usize,
         masses: &Masses,
         moved: &[usize],
-        (sites, sets): (&Sites<'_, D>, usize),
+        (unknowns, sets): (&[Option<usize>], usize),
+        place: &dyn Fn(usize, [usize; 2]) -> usize,
     ) -> Self {
-        let unknowns = &sites.layout.nodes;
         let mut pairs = Vec::with_capacity(masses.pairs().len());
-        let mut places = Vec::with_capacity(sets * masses.pairs().len());
+        let mut places = Vec::with_capacity(2 * dimension * sets * masses.pairs().len());
         for set in 0..sets {
-            let sites = sites.of_sets([set, set]);
             for pair in masses.pairs() {
                 let [a, b] = pair.nodes();
                 let (Some(a), Some(b)) = (unknowns[a], unknowns[b]) else {
                     continue;
                 };
-                let place = |row: usize, column: usize| {
-                    vector(|axis| compact(sites.place(Some(row + axis), Some(column + axis))))
-                };
-                places.push([place(a, b), place(b, a)]);
+                for [row, column] in [[a, b], [b, a]] {
+                    for axis in 0..dimension {
+                        places.push(compact(place(set, [row + axis, column + axis])));
+                    }
+                }
                 if set == 0 {
                     pairs.push(CoupledPair {
-                        nodes: [compact(a / D), compact(b / D)],
+                        nodes: [compact(a / dimension), compact(b / dimension)],
                         mass: pair.mass,
                     });
                 }
             }
         }
-        let moving = masses.iter().flatten().count();
+        let mut own = Vec::with_capacity(masses.len());
+        own.extend(masses.iter().flatten());
         let has_held = !masses.held().is_empty();
-        let mut driven = vec![Vec::new(); if has_held { moving } else { 0 }];
+        let mut driven = vec![Vec::new(); if has_held { own.len() } else { 0 }];
         for pair in masses.held() {
             let [a, b] = pair.nodes();
             for [node, moves] in [[a, b], [b, a]] {
                 if let Some(first) = unknowns[node]
                     && moved.binary_search(&moves).is_ok()
                 {
-                    driven[first / D].push((moves, pair.mass));
+                    driven[first / dimension].push((moves, pair.mass));
                 }
             }
         }
-        let still = [[0.0; D]; 2];
         let mut drives = Vec::new();
         for (node, anchors) in driven.into_iter().enumerate() {
             if !anchors.is_empty() {
                 drives.push(Drive {
                     node,
                     anchors,
-                    of_sets: [still; MOST_SETS],
-                    of_step: still,
+                    sums: vec![0.0; 2 * dimension * (MOST_SETS + 1)],
                 });
             }
         }
-        let is_coupled = !pairs.is_empty() || !drives.is_empty();
+        if pairs.is_empty() && drives.is_empty() {
+            own = Vec::new();
+        }
+        let vectors = vec![0.0; 2 * dimension * own.len()];
         Self {
+            dimension,
             pairs,
             places,
             drives,
-            impulses: vec![still; if is_coupled { moving } else { 0 }],
+            masses: own,
+            factors: vectors.clone(),
+            impulses: vectors,
+            changes: vec![0.0; dimension * MOST_STAGES],
         }
     }
 
     /// Finds the impulses of moved anchors on the nodes coupled to them in a step.
     pub(super) fn drive(&mut self, rule: Option<&Tableau>, view: &StepView<'_>) {
+        let vector = 2 * self.dimension;
         for drive in &mut self.drives {
-            let still = [[0.0; D]; 2];
-            (drive.of_sets, drive.of_step) = ([still; MOST_SETS], still);
+            drive.sums.fill(0.0);
+            let (of_sets, of_step) = drive.sums.split_at_mut(MOST_SETS * vector);
             for &(moved, mass) in drive.anchors.iter().filter(|_| view.phase.moves()) {
-                let change = view.change_of_speed::<D>(moved);
-                add_to(&mut drive.of_step, mass, &change);
+                let change = &mut self.changes[..self.dimension];
+                for (axis, change) in change.iter_mut().enumerate() {
+                    let at = moved * self.dimension + axis;
+                    let speed = view.loads.speeds.get(at).copied().unwrap_or(0.0);
+                    *change = speed - view.state.velocities.values()[at];
+                }
+                add_to(of_step, mass, change);
                 let Some((rule, path)) = rule.and_then(|rule| Some((rule, rule.path?))) else {
-                    add_to(&mut drive.of_sets[0], mass, &change);
+                    add_to(&mut of_sets[..vector], mass, change);
                     continue;
                 };
-                let changes = changes_at_stages(&path, moved, view);
+                find_changes(&path, moved, view, &mut self.changes);
                 for (set, rates) in rule.rates.iter().enumerate() {
                     let per_time = rule.times[set].recip();
-                    for (&rate, change) in rates.iter().zip(&changes) {
-                        let share = mass * (rate * per_time);
-                        add_to(&mut drive.of_sets[set], share, change);
+                    let sums = &mut of_sets[set * vector..][..vector];
+                    for (&rate, change) in rates.iter().zip(self.changes.chunks(self.dimension)) {
+                        add_to(sums, mass * (rate * per_time), change);
                     }
                 }
             }
@@ -166,132 +180,110 @@ impl<const D: usize> Coupling<D> {
         self.is_none() || update <= root * root.sqrt().sqrt()
     }
 
-    /// Adds inertia to residual and tangent of a set at a trial, as a [`Balance`] does on the diagonal.
+    /// Adds inertia times the factors to residual and tangent of a set, whose rows begin with the given ones, as a
+    /// [`Balance`] does on the diagonal.
     pub(super) fn balance(
         &self,
         set: usize,
-        (nodes, trial): (&[Balance<D>], &Trial<D>),
         inertia_per_mass: f64,
         values: &mut [f64],
-        right: &mut [[f64; 1]],
+        right: &mut [f64],
     ) {
-        let places = &self.places[set * self.pairs.len()..];
-        for (pair, places) in self.pairs.iter().zip(places) {
-            let [a, b] = pair.indices();
+        let d = self.dimension;
+        let places = self.places.chunks_exact(2 * d);
+        for (pair, places) in self.pairs.iter().zip(places.skip(set * self.pairs.len())) {
+            let [a, b] = indices(pair.nodes);
             let inertia = pair.mass * inertia_per_mass;
-            for &place in places.as_flattened() {
+            for &place in places {
                 values[place as usize] += inertia;
             }
             for [own, other] in [[a, b], [b, a]] {
-                let change = nodes[other].change(trial);
-                add(nodes[own].rows_mut(right), -inertia, &change);
+                let change = &self.factors[2 * d * other..][..d];
+                add(&mut right[d * own..], -inertia, change);
             }
         }
         for drive in &self.drives {
-            let [impulses, _] = drive.of_sets[set];
-            let rows = nodes[drive.node].rows_mut(right);
-            add(rows, -1.0, &impulses);
+            let impulses = &drive.sums[2 * d * set..][..d];
+            add(&mut right[d * drive.node..], -1.0, impulses);
         }
     }
 
-    /// Finds `Δp` of all nodes of a set at a trial, if masses couple them.
-    pub(super) fn find_impulses(
-        &mut self,
-        set: usize,
-        (nodes, trial): (&[Balance<D>], &Trial<D>),
-        inertia_per_mass: f64,
-    ) {
-        self.multiply(nodes, inertia_per_mass, &|node| {
-            let [moved, _] = node.moved(trial);
-            [node.change(trial), sizes_of(moved)]
-        });
-        for drive in &self.drives {
-            let more = drive.of_sets[set].as_flattened();
-            add(self.impulses[drive.node].as_flattened_mut(), 1.0, more);
-        }
-    }
-
-    /// Finds `Δp` of all nodes from the changes of their velocities in a step, m/s, by node, if masses couple them.
-    pub(super) fn find_impulses_of_step(&mut self, nodes: &[Balance<D>], changes: &[[f64; D]]) {
-        self.multiply(nodes, 1.0, &|node| {
-            let change = changes[node.node];
-            [change, sizes_of(&change)]
-        });
-        for drive in &self.drives {
-            let more = drive.of_step.as_flattened();
-            add(self.impulses[drive.node].as_flattened_mut(), 1.0, more);
-        }
-    }
-
-    /// Sets the impulses to a factor times the mass matrix times a vector of nodes, with the magnitudes of the terms;
-    /// `entries` returns those of a node and their magnitudes. Does nothing unless masses couple nodes.
-    fn multiply(
-        &mut self,
-        nodes: &[Balance<D>],
-        factor: f64,
-        entries: &dyn Fn(&Balance<D>) -> [[f64; D]; 2],
-    ) {
-        for (node, impulse) in nodes.iter().zip(&mut self.impulses) {
-            let inertia = node.mass * factor;
-            *impulse = entries(node);
-            for entry in impulse.as_flattened_mut() {
-                *entry *= inertia;
+    /// Finds `Δp` of all nodes from the factors: their displacements beyond flight in a set, or the changes of their velocities in the
+    /// step, m/s.
+    pub(super) fn find_impulses(&mut self, set: Option<usize>, inertia_per_mass: f64) {
+        let (d, vector) = (self.dimension, 2 * self.dimension);
+        let factors = self.factors.chunks_exact(vector);
+        let impulses = self.impulses.chunks_exact_mut(vector);
+        for ((&mass, factors), impulses) in self.masses.iter().zip(factors).zip(impulses) {
+            let inertia = mass * inertia_per_mass;
+            for (impulse, factor) in impulses.iter_mut().zip(factors) {
+                *impulse = factor * inertia;
             }
         }
         for pair in &self.pairs {
-            let [a, b] = pair.indices();
-            let inertia = pair.mass * factor;
+            let [a, b] = indices(pair.nodes);
+            let inertia = pair.mass * inertia_per_mass;
             for [own, other] in [[a, b], [b, a]] {
-                let [entries, sizes] = entries(&nodes[other]);
-                let [sums, terms] = &mut self.impulses[own];
-                add(sums, inertia, &entries);
+                let (factors, sizes) = self.factors[vector * other..][..vector].split_at(d);
+                let (sums, terms) = self.impulses[vector * own..][..vector].split_at_mut(d);
+                add(sums, inertia, factors);
                 // Masses between corners and middles of edges are negative.
-                add(terms, inertia.abs(), &sizes);
+                add(terms, inertia.abs(), sizes);
             }
+        }
+        for drive in &self.drives {
+            let more = &drive.sums[vector * set.unwrap_or(MOST_SETS)..][..vector];
+            add(&mut self.impulses[vector * drive.node..], 1.0, more);
         }
     }
 
     /// `Δp` of a moving node as last found, and the magnitude of its terms, N s; `None` unless masses couple nodes.
-    pub(super) fn found(&self, moving: usize) -> Option<&[[f64; D]; 2]> {
-        self.impulses.get(moving)
+    #[inline]
+    pub(super) fn found<const D: usize>(&self, moving: usize) -> Option<[&[f64; D]; 2]> {
+        if self.is_none() {
+            return None;
+        }
+        let vectors = self.impulses.as_chunks::<D>().0;
+        Some([&vectors[2 * moving], &vectors[2 * moving + 1]])
     }
 
     /// `Δp` of a moving node at the trial, and the magnitude of its terms, N s; where masses couple nodes, as last found.
     #[inline]
-    pub(super) fn impulse(
+    pub(super) fn impulse<const D: usize>(
         &self,
         (moving, node): (usize, &Balance<D>),
         trial: &Trial<D>,
     ) -> [[f64; D]; 2] {
-        if let Some(found) = self.found(moving) {
-            return *found;
+        match self.found(moving) {
+            Some([&impulse, &terms]) => [impulse, terms],
+            None => node.impulse(node.moved(trial)),
         }
-        node.impulse(node.moved(trial))
     }
 }
 
 /// Adds the impulse of a mass, kg, whose velocity changes, m/s, and the magnitude of its terms.
-fn add_to<const D: usize>([sum, terms]: &mut [[f64; D]; 2], mass: f64, change: &[f64; D]) {
-    add(sum, mass, change);
-    add(terms, mass.abs(), &sizes_of(change));
-}
-
-fn sizes_of<const D: usize>(a: &[f64; D]) -> [f64; D] {
-    vector(|axis| a[axis].abs())
-}
-
-/// The change of the velocity of a moved anchor from the old state to each stage, m/s, from its velocities at the
-/// supports of a path.
-pub(super) fn changes_at_stages<const D: usize>(
-    path: &Path,
-    node: usize,
-    view: &StepView<'_>,
-) -> [[f64; D]; MOST_STAGES] {
-    let [old, _] = view.state.velocities.point::<D>(node);
-    let mut changes = [[0.0; D]; MOST_STAGES];
-    for (change, shares) in changes.iter_mut().zip(path.supports.to_stages) {
-        let supports = view.stages.iter();
-        *change = combined(shares, supports.map(|of| difference(&of.speed(node), old)));
+fn add_to(sums: &mut [f64], mass: f64, change: &[f64]) {
+    let (sums, terms) = sums.split_at_mut(change.len());
+    add(sums, mass, change);
+    for (term, change) in terms.iter_mut().zip(change) {
+        *term += mass.abs() * change.abs();
     }
-    changes
+}
+
+/// Finds the change of the velocity of a moved anchor from the old state to each stage, m/s, from its velocities at the
+/// supports of a path.
+pub(super) fn find_changes(path: &Path, node: usize, view: &StepView<'_>, changes: &mut [f64]) {
+    let dimension = changes.len() / MOST_STAGES;
+    changes.fill(0.0);
+    let stages = changes.chunks_exact_mut(dimension);
+    for (change, shares) in stages.zip(path.supports.to_stages) {
+        for (axis, change) in change.iter_mut().enumerate() {
+            let at = node * dimension + axis;
+            let old = view.state.velocities.values()[at];
+            for (&share, support) in shares.iter().zip(view.stages) {
+                let speed = support.speeds.get(at).copied().unwrap_or(0.0);
+                *change += share * (speed - old);
+            }
+        }
+    }
 }

@@ -14,6 +14,12 @@ pub(super) struct Past<const D: usize> {
     /// `Δp/h` of the last step and of the one before, N, zero before the first; and the impulse of the step that is being
     /// closed, N s. Per node; for an anchor only the impulse is meaningful.
     forces: Vec<[[f64; D]; PLACES]>,
+    pub(super) history: History,
+}
+
+/// What does not depend on the dimension.
+#[derive(Debug)]
+pub(super) struct History {
     /// The row of [`TURNS`] that holds the index of each of these three.
     turn: usize,
     /// The error of each predictor, `Σ |ΔF/m|²`, with decreasing weights of earlier steps.
@@ -66,19 +72,92 @@ impl<const D: usize> Past<D> {
             variables => variables + 1,
         };
         Self {
-            internal: [vec![0.0; size], vec![0.0; size]],
-            viscous,
             forces: vec![[[0.0; D]; PLACES]; nodes],
-            turn: 0,
-            errors: [0.0; 3],
-            errors_before: [0.0; 3],
-            errors_after: [0.0; 3],
+            history: History {
+                internal: [vec![0.0; size], vec![0.0; size]],
+                viscous,
+                turn: 0,
+                errors: [0.0; 3],
+                errors_before: [0.0; 3],
+                errors_after: [0.0; 3],
+            },
         }
     }
 
     /// Forgets all steps.
     pub(super) fn clear(&mut self) {
         self.forces.fill([[0.0; D]; PLACES]);
+        self.history.clear();
+    }
+
+    /// The force on a node by a predictor, N.
+    #[inline]
+    pub(super) fn predicted(&self, [by_last, by_before]: [f64; 2], node: usize) -> [f64; D] {
+        let ([last, before, _], forces) = (TURNS[self.history.turn], &self.forces[node]);
+        let (last, before) = (&forces[last], &forces[before]);
+        vector(|axis| by_last * last[axis] + by_before * before[axis])
+    }
+
+    /// The impulses of the step that is being closed.
+    #[inline]
+    pub(super) fn impulses(&mut self) -> Impulses<'_, D> {
+        let [_, _, next] = TURNS[self.history.turn];
+        Impulses::new(&mut self.forces, next)
+    }
+
+    /// The impulse of a node in the step that is being closed, N s.
+    #[inline]
+    pub(super) fn impulse(&mut self, node: usize) -> &mut [f64; D] {
+        let [_, _, next] = TURNS[self.history.turn];
+        &mut self.forces[node][next]
+    }
+
+    /// Multiplies the impulse of a node by 1/h, which makes it a force, and adds its prediction errors, as accelerations.
+    #[inline]
+    pub(super) fn take(&mut self, node: usize, per_step: f64, per_mass: f64) {
+        let [last, before, next] = TURNS[self.history.turn];
+        let forces = &mut self.forces[node];
+        let (last, before) = (forces[last], forces[before]);
+        let mut errors = self.history.errors_after;
+        for (axis, component) in forces[next].iter_mut().enumerate() {
+            let force = *component * per_step;
+            let change = force - last[axis];
+            let misses = [force, change, change - (last[axis] - before[axis])];
+            for (error, miss) in errors.iter_mut().zip(misses) {
+                *error += (miss * per_mass) * (miss * per_mass);
+            }
+            *component = force;
+        }
+        self.history.errors_after = errors;
+    }
+
+    /// The history for a checkpoint.
+    pub(super) fn save(&self) -> SavedPast {
+        let zeros = vec![0.0; self.forces.len() * D];
+        let mut saved = SavedPast {
+            forces: [zeros.clone(), zeros],
+            internal: self.history.internal[0].clone(),
+            ..SavedPast::none()
+        };
+        self.save_to(&mut saved);
+        saved
+    }
+
+    /// Saves the history into an earlier one of the same scene, without allocation.
+    pub(super) fn save_to(&self, saved: &mut SavedPast) {
+        let forces = self.forces.as_flattened().as_flattened();
+        self.history.save_to(D, forces, saved);
+    }
+
+    /// Continues from a saved history of as many nodes.
+    pub(super) fn restore(&mut self, saved: &SavedPast) {
+        let forces = self.forces.as_flattened_mut().as_flattened_mut();
+        self.history.restore(D, forces, saved);
+    }
+}
+
+impl History {
+    fn clear(&mut self) {
         for variables in &mut self.internal {
             variables.fill(0.0);
         }
@@ -97,51 +176,10 @@ impl<const D: usize> Past<D> {
         if is_linear { linear } else { other }
     }
 
-    /// The force on a node by a predictor, N.
-    #[inline]
-    pub(super) fn predicted(&self, [by_last, by_before]: [f64; 2], node: usize) -> [f64; D] {
-        let ([last, before, _], forces) = (TURNS[self.turn], &self.forces[node]);
-        let (last, before) = (&forces[last], &forces[before]);
-        vector(|axis| by_last * last[axis] + by_before * before[axis])
-    }
-
-    /// The impulses of the step that is being closed.
-    #[inline]
-    pub(super) fn impulses(&mut self) -> Impulses<'_, D> {
-        let [_, _, next] = TURNS[self.turn];
-        Impulses::new(&mut self.forces, next)
-    }
-
     /// Begins to record the forces of a step, which enters the history only with [`keep`](Self::keep).
     #[inline]
     pub(super) fn remember(&mut self) {
         self.errors_after = scaled(MEMORY, &self.errors);
-    }
-
-    /// The impulse of a node in the step that is being closed, N s.
-    #[inline]
-    pub(super) fn impulse(&mut self, node: usize) -> &mut [f64; D] {
-        let [_, _, next] = TURNS[self.turn];
-        &mut self.forces[node][next]
-    }
-
-    /// Multiplies the impulse of a node by 1/h, which makes it a force, and adds its prediction errors, as accelerations.
-    #[inline]
-    pub(super) fn take(&mut self, node: usize, per_step: f64, per_mass: f64) {
-        let [last, before, next] = TURNS[self.turn];
-        let forces = &mut self.forces[node];
-        let (last, before) = (forces[last], forces[before]);
-        let mut errors = self.errors_after;
-        for (axis, component) in forces[next].iter_mut().enumerate() {
-            let force = *component * per_step;
-            let change = force - last[axis];
-            let misses = [force, change, change - (last[axis] - before[axis])];
-            for (error, miss) in errors.iter_mut().zip(misses) {
-                *error += (miss * per_mass) * (miss * per_mass);
-            }
-            *component = force;
-        }
-        self.errors_after = errors;
     }
 
     /// The internal variables before the last step, for a step of this size; `None` before the first one, or if not
@@ -183,24 +221,12 @@ impl<const D: usize> Past<D> {
         self.errors = self.errors_before;
     }
 
-    /// The history for a checkpoint.
-    pub(super) fn save(&self) -> SavedPast {
-        let zeros = vec![0.0; self.forces.len() * D];
-        let mut saved = SavedPast {
-            forces: [zeros.clone(), zeros],
-            errors: self.errors,
-            internal: self.internal[0].clone(),
-        };
-        self.save_to(&mut saved);
-        saved
-    }
-
-    /// Saves the history into an earlier one of the same scene, without allocation.
-    pub(super) fn save_to(&self, saved: &mut SavedPast) {
+    fn save_to(&self, dimension: usize, forces: &[f64], saved: &mut SavedPast) {
         let [last, before, _] = TURNS[self.turn];
         for (step, saved) in [last, before].into_iter().zip(&mut saved.forces) {
-            for (own, saved) in self.forces.iter().zip(saved.as_chunks_mut().0) {
-                *saved = own[step];
+            let nodes = forces.chunks_exact(PLACES * dimension);
+            for (own, saved) in nodes.zip(saved.chunks_exact_mut(dimension)) {
+                saved.copy_from_slice(&own[step * dimension..][..dimension]);
             }
         }
         saved.errors = self.errors;
@@ -209,12 +235,12 @@ impl<const D: usize> Past<D> {
         }
     }
 
-    /// Continues from a saved history of as many nodes.
-    pub(super) fn restore(&mut self, saved: &SavedPast) {
+    fn restore(&mut self, dimension: usize, forces: &mut [f64], saved: &SavedPast) {
         let [last, before, _] = TURNS[self.turn];
         for (step, saved) in [last, before].into_iter().zip(&saved.forces) {
-            for (own, saved) in self.forces.iter_mut().zip(saved.as_chunks().0) {
-                own[step] = *saved;
+            let nodes = forces.chunks_exact_mut(PLACES * dimension);
+            for (own, saved) in nodes.zip(saved.chunks_exact(dimension)) {
+                own[step * dimension..][..dimension].copy_from_slice(saved);
             }
         }
         self.errors = saved.errors;
@@ -230,9 +256,9 @@ mod tests {
 
     fn go_on(past: &mut Past<1>, force: f64) {
         *past.impulse(0) = [0.5 * force];
-        past.remember();
+        past.history.remember();
         past.take(0, 2.0, 0.5);
-        past.keep([&[force], &[]], 2.0);
+        past.history.keep([&[force], &[]], 2.0);
     }
 
     fn after(forces: [f64; 3]) -> Past<1> {
@@ -247,7 +273,8 @@ mod tests {
     fn the_predictor_is_the_one_with_the_smallest_error() {
         let predicted = |forces: [f64; 3]| {
             let past = after(forces);
-            past.predicted(past.predictor(), 0).map(f64::to_bits)
+            past.predicted(past.history.predictor(), 0)
+                .map(f64::to_bits)
         };
         assert_eq!(predicted([4.0, -4.0, 4.0]), [0.0_f64.to_bits()]);
         assert_eq!(predicted([4.0, 4.0, 4.0]), [4.0_f64.to_bits()]);
@@ -260,7 +287,7 @@ mod tests {
         let before = past.save();
         go_on(&mut past, 9.0);
         assert_ne!(past.save(), before);
-        past.forget();
+        past.history.forget();
         assert_eq!(past.save(), before);
         let mut again = after([0.0; 3]).save();
         past.save_to(&mut again);
@@ -272,7 +299,7 @@ mod tests {
         let mut past = after([1.0, 2.0, 4.0]);
         let before = past.save();
         *past.impulse(0) = [9.0];
-        past.remember();
+        past.history.remember();
         past.take(0, 1.0, 0.5);
         assert_eq!(past.save(), before);
     }

@@ -6,75 +6,79 @@
 //! ```
 
 use crate::algebra::system::LinearSystem;
-use crate::algebra::{add, hypot, scaled, vector};
+use crate::algebra::{add, dot, hypot};
 use crate::element::error::StateError;
-use crate::element::group::{Sites, StepView, Trial, points};
+use crate::element::group::StepView;
 use crate::element::impulse::Impulses;
 use crate::element::loads::{Push, PushLine, StepLoads};
-use crate::element::tableau::{MOST_SETS, Tableau};
-use crate::step::line::Line;
+use crate::element::tableau::Tableau;
 use eem_material::number::scalar::is_positive;
 
-/// The rockets of a scene.
+/// The rockets of a scene. Vectors are stored component after component, so that this is compiled once for all dimensions.
 #[derive(Debug)]
-pub(super) struct Rockets<const D: usize> {
-    all: Vec<Rocket<D>>,
+pub(super) struct Rockets {
+    dimension: usize,
+    all: Vec<Rocket>,
     /// The stages of the scheme; without stages, rockets push along their line in the middle of the step.
     rule: Option<&'static Tableau>,
     /// The forces last found at a trial, per stage and node, N; no nodes without rockets.
-    forces: Vec<Vec<[f64; D]>>,
+    forces: Vec<Vec<f64>>,
+    /// Memory for a direction.
+    direction: Vec<f64>,
 }
 
 /// A rocket, with the indices of its rows and matrix entries.
-#[derive(Clone, Copy, Debug)]
-struct Rocket<const D: usize> {
+#[derive(Clone, Debug)]
+struct Rocket {
     line: PushLine,
     /// The first row of the node that it pushes in each set of unknowns.
-    rows: [usize; MOST_SETS],
+    rows: Vec<usize>,
     /// The tangent entries in the rows of that node and the columns of tail and head, by set of the rows, set of the
-    /// columns, tail or head, row and column.
-    places: [[[[[usize; D]; D]; 2]; MOST_SETS]; MOST_SETS],
+    /// columns, row, column, tail or head.
+    places: Vec<usize>,
 }
 
-impl<const D: usize> Rockets<D> {
-    /// The rockets of a scene, for a scheme with these stages.
+/// The index of the row of an unknown of a node in a set, or of the entry with such a column, given axes.
+pub(super) type Indices<'a> = (
+    &'a dyn Fn(usize, [usize; 2]) -> usize,
+    &'a dyn Fn([usize; 2], [[usize; 2]; 2]) -> usize,
+);
+
+impl Rockets {
+    /// The rockets of a scene with this number of nodes, for a scheme with these stages.
     pub(super) fn new(
         rule: Option<&'static Tableau>,
         loads: &StepLoads,
-        nodes: usize,
-        sites: &Sites<'_, D>,
+        [dimension, nodes]: [usize; 2],
+        (row, place): Indices<'_>,
     ) -> Self {
         let sets = rule.map_or(1, Tableau::sets);
-        let unknown = |node: usize, axis: usize| sites.layout.nodes[node].map(|first| first + axis);
         let mut all = Vec::with_capacity(loads.pushes.len());
         for push in &loads.pushes {
-            let PushLine { node, tail, head } = push.line;
-            // Indices of sets beyond the last are never used.
-            let mut rocket = Rocket {
-                line: push.line,
-                rows: [0; MOST_SETS],
-                places: [[[[[0; D]; D]; 2]; MOST_SETS]; MOST_SETS],
-            };
-            for (rows, columns) in (0..sets * sets).map(|pair| (pair / sets, pair % sets)) {
-                let sites = sites.of_sets([rows, columns]);
-                if rows == columns {
-                    rocket.rows[rows] = sites.row(unknown(node.index, 0));
-                }
-                for (places, end) in rocket.places[rows][columns].iter_mut().zip([tail, head]) {
-                    for (row, places) in places.iter_mut().enumerate() {
-                        let row = unknown(node.index, row);
-                        *places = vector(|column| sites.place(row, unknown(end.index, column)));
+            let line = push.line;
+            let node = line.node.index;
+            let (mut rows, mut places) = (Vec::new(), Vec::new());
+            for set in 0..sets {
+                rows.push(row(set, [node, 0]));
+                for columns in 0..sets {
+                    for axes in 0..dimension * dimension {
+                        let [down, along] = [axes / dimension, axes % dimension];
+                        for end in [line.tail.index, line.head.index] {
+                            places.push(place([set, columns], [[node, down], [end, along]]));
+                        }
                     }
                 }
             }
-            all.push(rocket);
+            all.push(Rocket { line, rows, places });
         }
         let stages = rule.map_or(1, Tableau::stages);
         let nodes = if all.is_empty() { 0 } else { nodes };
         Self {
+            dimension,
             all,
             rule,
-            forces: vec![vec![[0.0; D]; nodes]; stages],
+            forces: vec![vec![0.0; dimension * nodes]; stages],
+            direction: vec![0.0; dimension],
         }
     }
 
@@ -85,54 +89,49 @@ impl<const D: usize> Rockets<D> {
 
     /// Adds the forces of rockets last found at a stage to a load on a node, N.
     #[inline]
-    pub(super) fn add_to(&self, load: [f64; D], [stage, node]: [usize; 2]) -> [f64; D] {
-        if self.are_none() {
-            return load;
+    pub(super) fn add_to<const D: usize>(
+        &self,
+        mut load: [f64; D],
+        [stage, node]: [usize; 2],
+    ) -> [f64; D] {
+        if !self.are_none() {
+            add(&mut load, 1.0, &self.forces[stage][D * node..]);
         }
-        let force = &self.forces[stage][node];
-        vector(|axis| load[axis] + force[axis])
+        load
     }
 
-    /// Finds the forces at a trial, and adds them to the system of an iteration if there is one.
-    #[inline]
-    pub(super) fn evaluate(
+    /// Finds the forces at a trial with displacements per stage, and adds them to the system of an iteration if there is one.
+    #[cold]
+    pub(super) fn evaluate<'a>(
         &mut self,
         view: &StepView<'_>,
-        trial: &Trial<D>,
-        system: Option<&mut LinearSystem<1>>,
-    ) -> Result<(), StateError> {
-        if self.are_none() || !view.phase.moves() {
-            return Ok(());
-        }
-        self.evaluate_all(view, trial, system)
-    }
-
-    fn evaluate_all(
-        &mut self,
-        view: &StepView<'_>,
-        trial: &Trial<D>,
+        displacements: &dyn Fn(usize) -> &'a [f64],
         mut system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
+        let sets = self.rule.map_or(1, Tableau::sets);
         for (stage, forces) in self.forces.iter_mut().enumerate() {
-            forces.fill([0.0; D]);
+            forces.fill(0.0);
             let (loads, share) = match self.rule {
                 None if view.phase.is_at_rest() => (view.loads, 1.0),
                 None => (view.loads, 0.5),
                 Some(_) => (&view.stages[stage], 1.0),
             };
             for (rocket, &Push { thrust, .. }) in self.all.iter().zip(&loads.pushes) {
-                let line = rocket.line_at(view, trial.displacements_of_set(stage), share)?;
-                let node = rocket.line.node.index;
-                add(&mut forces[node], thrust, &line.direction);
+                let direction = &mut self.direction[..];
+                let length = rocket.point(view, displacements(stage), share, direction)?;
+                add(
+                    &mut forces[self.dimension * rocket.line.node.index..],
+                    thrust,
+                    direction,
+                );
                 let Some(system) = system.as_deref_mut() else {
                     continue;
                 };
-                for set in 0..trial.sets {
+                for set in 0..sets {
                     let weight = self.rule.map_or(1.0, |rule| rule.positions[set][stage]);
                     let impulse = weight * (view.step * thrust);
-                    let turning = line.turning(share * impulse);
-                    let impulse = scaled(impulse, &line.direction);
-                    rocket.add_to([set, stage], system, (&impulse, &turning));
+                    let turning = share * impulse / length;
+                    rocket.add_to([set, stage], system, direction, [impulse, turning]);
                 }
             }
         }
@@ -141,13 +140,13 @@ impl<const D: usize> Rockets<D> {
 
     /// Adds `h f` at a stage to the impulses, and its magnitude to `magnitudes`.
     #[inline]
-    pub(super) fn add_impulses(
+    pub(super) fn add_impulses<const D: usize>(
         &self,
         (stage, step): (usize, f64),
         impulses: &mut Impulses<'_, D>,
         magnitudes: &mut [f64],
     ) {
-        for (node, force) in self.forces[stage].iter().enumerate() {
+        for (node, force) in self.forces[stage].chunks_exact(D).enumerate() {
             add(impulses.of(node), step, force);
             if let Some(magnitude) = magnitudes.get_mut(node) {
                 for force in force {
@@ -158,50 +157,58 @@ impl<const D: usize> Rockets<D> {
     }
 }
 
-impl<const D: usize> Rocket<D> {
-    /// The line of the rocket after this fraction of the displacements.
-    fn line_at(
+impl Rocket {
+    /// Finds the direction n of the rocket after this fraction of the displacements; returns |r|.
+    fn point(
         &self,
         view: &StepView<'_>,
-        moved: &[[f64; D]],
+        moved: &[f64],
         share: f64,
-    ) -> Result<Line<D>, StateError> {
+        direction: &mut [f64],
+    ) -> Result<f64, StateError> {
         let PushLine { node, tail, head } = self.line;
-        let [from, to] = [tail.index, head.index];
-        let positions = points::<D>(view.state.positions.values());
-        let arm: [f64; D] = vector(|axis| {
-            let turned = moved[to][axis] - moved[from][axis];
-            (positions[to][axis] - positions[from][axis]) + share * turned
-        });
-        let line = Line::along(&arm);
-        if !is_positive(line.length) {
+        let [from, to] = [tail, head].map(|end| end.index * direction.len());
+        let positions = view.state.positions.values();
+        for (axis, arm) in direction.iter_mut().enumerate() {
+            let turned = moved[to + axis] - moved[from + axis];
+            *arm = (positions[to + axis] - positions[from + axis]) + share * turned;
+        }
+        let length = dot(direction, direction).sqrt();
+        if !is_positive(length) {
             return Err(StateError::NoDirection {
                 node,
                 tail,
                 head,
-                value: hypot(&arm),
+                value: hypot(direction),
             });
         }
-        Ok(line)
+        for arm in direction {
+            *arm /= length;
+        }
+        Ok(length)
     }
 
-    /// Adds an impulse to the right-hand side of the rows of a set, and its negative derivative with respect to the nodes
-    /// in another set to the tangent.
+    /// Adds an impulse in a direction to the right-hand side of the rows of a set, and its negative derivative with respect to the
+    /// nodes in another set, `(1 − n nᵀ)` times a number, to the tangent.
     fn add_to(
         &self,
         [rows, columns]: [usize; 2],
         system: &mut LinearSystem<1>,
-        (impulse, turning): (&[f64; D], &[[f64; D]; D]),
+        direction: &[f64],
+        [impulse, turning]: [f64; 2],
     ) {
+        let d = direction.len();
         let (values, right) = system.parts();
-        let places = &self.places[rows][columns];
-        for axis in 0..D {
-            right[self.rows[rows] + axis][0] += impulse[axis];
-            for column in 0..D {
-                let [tail, head] = [places[0][axis][column], places[1][axis][column]];
-                values[tail] += turning[axis][column];
-                values[head] -= turning[axis][column];
+        let places = self.places[2 * d * d * (rows * self.rows.len() + columns)..].chunks_exact(2);
+        for (axes, places) in (0..d * d).zip(places) {
+            let [row, column] = [axes / d, axes % d];
+            if column == 0 {
+                right[self.rows[rows] + row][0] += impulse * direction[row];
             }
+            let own = if row == column { 1.0 } else { 0.0 };
+            let entry = turning * (own - direction[row] * direction[column]);
+            values[places[0]] += entry;
+            values[places[1]] -= entry;
         }
     }
 }

@@ -33,7 +33,7 @@ impl<const D: usize> Solver<D> {
         // The step becomes the history of the predictors.
         if view.phase.heats() && !self.scheme.is_classical() {
             let variables = [view.state.viscous.values(), &view.state.temperatures];
-            self.past.keep(variables, view.step);
+            self.past.history.keep(variables, view.step);
         }
         Ok(&self.certificate)
     }
@@ -53,7 +53,7 @@ impl<const D: usize> Search<'_, D> {
     ) -> Result<(), StepFailure> {
         let (scheme, view) = (self.solver.scheme, self.view);
         let mut was_given_up = self.solver.is_given_up;
-        if scheme.is_exact() && self.solver.past.before(view.step).is_some() {
+        if scheme.is_exact() && self.solver.past.history.before(view.step).is_some() {
             if self.start_from(Start::Motion, effort, closing).is_ok() {
                 return Ok(());
             }

@@ -6,11 +6,11 @@
 
 use core::ops::ControlFlow;
 
-use super::{Bracket, Event, Simulation};
-use crate::run::simulation::Stepped;
-use crate::run::simulation::compiled::{Aim, Functions};
+use super::{Bracket, Event, Mark, Simulation};
+use crate::run::simulation::compiled::Aim;
 use crate::run::simulation::memory::or_restore;
 use crate::run::simulation::run::RunEnd;
+use crate::run::simulation::{Run, Stepped};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
 use eem_material::number::scalar::Scalar;
@@ -51,7 +51,7 @@ impl<const D: usize> Simulation<D> {
         events: &mut [Event<'_, D>],
     ) -> Result<RunEnd, StepError> {
         if events.is_empty() {
-            self.expect_finite(end)?;
+            self.run.expect_finite(end)?;
         }
         self.run_until_event_with(end, events, |_, _| ControlFlow::Continue(()))
     }
@@ -87,21 +87,22 @@ impl<const D: usize> Simulation<D> {
         mut observer: impl FnMut(&Self, &StepReport) -> ControlFlow<()>,
     ) -> Result<RunEnd, StepError> {
         for event in &mut *events {
-            event.has_happened = false;
+            event.mark.has_happened = false;
         }
         if !(self.time() <= end) {
-            return Err(self.refused(StepFailure::End { end }));
+            return Err(self.run.refused(StepFailure::End { end }));
         }
         self.begin_search(events)?;
-        while self.is_before(end) {
-            let before = (!events.is_empty()).then(|| self.history());
-            self.advance(Aim::Towards(end))?;
+        while self.run.is_before(end) {
+            let before = (!events.is_empty()).then(|| self.run.history());
+            self.run.advance(Aim::Towards(end))?;
             if let Some(before) = before {
-                let restore = |run: &mut Self| run.restore_history(&before);
-                let locate = Functions::get().end_at_event;
-                or_restore(self, restore, |run| locate(run, events, end))?;
+                let restore = |run: &mut Self| run.run.restore_history(&before);
+                or_restore(self, restore, |run| {
+                    end_at_event(&mut WithEvents { run, events }, end)
+                })?;
             }
-            let report = self.report;
+            let report = self.run.report;
             let stopped = observer(self, &report).is_break();
             if let Some(first) = events.iter().position(Event::has_happened) {
                 return Ok(RunEnd::Event(first));
@@ -116,117 +117,159 @@ impl<const D: usize> Simulation<D> {
     /// Evaluates the functions at the present state.
     fn begin_search(&self, events: &mut [Event<'_, D>]) -> Result<(), StepError> {
         for (event, place) in events.iter_mut().zip(0..) {
-            let value = event.tolerance;
+            let value = event.mark.tolerance;
             if value.is_nan() || value < 0.0 {
-                return Err(self.refused(StepFailure::EventTolerance {
+                return Err(self.run.refused(StepFailure::EventTolerance {
                     event: place,
                     value,
                 }));
             }
             let before = event.value(place, self);
-            event.before = before.map_err(|failure| self.refused(failure))?;
+            event.mark.before = before.map_err(|failure| self.run.refused(failure))?;
         }
         Ok(())
-    }
-
-    /// Ends the last step at the first event in it, if there is one, and marks the events that have happened then.
-    pub(in crate::run::simulation) fn end_at_event(
-        &mut self,
-        events: &mut [Event<'_, D>],
-        end: f64,
-    ) -> Stepped {
-        let mut is_located = false;
-        for place in 0..events.len() {
-            // An earlier event of the list may have shortened the step.
-            let event = &mut events[place];
-            event.after = self.value(event, place)?;
-            let whole = self.report.step;
-            let Some(bracket) = event.bracket(whole) else {
-                continue;
-            };
-            is_located = true;
-            if let Err(error) = self.locate(bracket, end, (event, place)) {
-                return self.end_at_event_in_half(events, whole, end, error);
-            }
-        }
-        for (event, place) in events.iter_mut().zip(0..) {
-            if is_located {
-                event.after = self.value(event, place)?;
-            }
-            event.has_happened = event.bracket(self.report.step).is_some();
-            event.before = event.after;
-        }
-        Ok(())
-    }
-
-    /// Used when the step that would end at the event has failed: makes a step of half the size instead, which is kept, and
-    /// searches for events in it.
-    fn end_at_event_in_half(
-        &mut self,
-        events: &mut [Event<'_, D>],
-        whole: f64,
-        end: f64,
-        error: StepError,
-    ) -> Stepped {
-        let is_of_event = matches!(
-            error.failure,
-            StepFailure::EventFunction { .. } | StepFailure::EventError { .. }
-        );
-        let middle = self.time() + 0.5 * whole;
-        if self.control.is_none() || is_of_event || !self.is_before(middle) {
-            return Err(error);
-        }
-        self.advance(Aim::InSchemeTowards(middle))?;
-        self.end_at_event(events, end)
-    }
-
-    /// Replaces the last step by a shorter one that ends just behind the event.
-    fn locate(
-        &mut self,
-        mut bracket: Bracket,
-        end: f64,
-        (event, place): (&mut Event<'_, D>, usize),
-    ) -> Stepped {
-        let whole = self.report;
-        let scale = whole.time.abs() + whole.step;
-        let sharpest = SHARPEST * f64::EPSILON * scale;
-        let resolution = Scalar::maximum(event.tolerance, sharpest);
-        let (mut is_behind, mut is_shorter) = (true, false);
-        while let Some(size) = bracket.candidate(resolution) {
-            self.undo();
-            self.advance(Aim::Again(size))?;
-            let value = self.value(event, place)?;
-            is_behind = bracket.narrow(size, value);
-            is_shorter |= is_behind;
-        }
-        if is_behind {
-            return Ok(());
-        }
-        self.undo();
-        if is_shorter {
-            return self.advance(Aim::Again(bracket.high));
-        }
-        self.advance(Aim::Again(whole.step))?;
-        #[expect(clippy::float_cmp, reason = "whether the step ended there")]
-        if whole.time == end {
-            self.arrive_at(end);
-        }
-        Ok(())
-    }
-
-    /// The function of an event at the present state. If it fails, the last step is undone.
-    fn value(&mut self, event: &mut Event<'_, D>, place: usize) -> Result<f64, StepError> {
-        let value = or_restore(self, Self::undo, |run| event.value(place, run));
-        value.map_err(|failure| self.failed(self.step, failure))
     }
 }
 
-impl<const D: usize> Event<'_, D> {
+/// A run with its events, whatever the dimension.
+trait Watched {
+    fn run(&mut self) -> &mut Run;
+
+    /// What is known of an event, if there are so many.
+    fn mark(&mut self, place: usize) -> Option<&mut Mark>;
+
+    /// The function of an event at the present state.
+    fn value(&mut self, place: usize) -> Result<f64, StepFailure>;
+}
+
+struct WithEvents<'a, 'f, const D: usize> {
+    run: &'a mut Simulation<D>,
+    events: &'a mut [Event<'f, D>],
+}
+
+impl<const D: usize> Watched for WithEvents<'_, '_, D> {
+    fn run(&mut self) -> &mut Run {
+        &mut self.run.run
+    }
+
+    fn mark(&mut self, place: usize) -> Option<&mut Mark> {
+        Some(&mut self.events.get_mut(place)?.mark)
+    }
+
+    fn value(&mut self, place: usize) -> Result<f64, StepFailure> {
+        self.events[place].value(place, self.run)
+    }
+}
+
+/// Ends the last step at the first event in it, if there is one, and marks the events that have happened then.
+fn end_at_event(watched: &mut dyn Watched, end: f64) -> Stepped {
+    let mut is_located = false;
+    let mut places = 0;
+    while watched.mark(places).is_some() {
+        // An earlier event of the list may have shortened the step.
+        let after = value_or_undo(watched, places)?;
+        let whole = watched.run().report.step;
+        let mark = watched.mark(places);
+        let bracket = mark.and_then(|mark| mark.see(after).bracket(whole));
+        if let Some(bracket) = bracket {
+            is_located = true;
+            if let Err(error) = locate(watched, bracket, end, places) {
+                return end_at_event_in_half(watched, whole, end, error);
+            }
+        }
+        places += 1;
+    }
+    for place in 0..places {
+        let after = is_located
+            .then(|| value_or_undo(watched, place))
+            .transpose()?;
+        let step = watched.run().report.step;
+        if let Some(mark) = watched.mark(place) {
+            let mark = mark.see(after.unwrap_or(mark.after));
+            mark.has_happened = mark.bracket(step).is_some();
+            mark.before = mark.after;
+        }
+    }
+    Ok(())
+}
+
+/// Used when the step that would end at the event has failed: makes a step of half the size instead, which is kept, and
+/// searches for events in it.
+fn end_at_event_in_half(
+    watched: &mut dyn Watched,
+    whole: f64,
+    end: f64,
+    error: StepError,
+) -> Stepped {
+    let is_of_event = matches!(
+        error.failure,
+        StepFailure::EventFunction { .. } | StepFailure::EventError { .. }
+    );
+    let run = watched.run();
+    let middle = run.time() + 0.5 * whole;
+    if run.control.is_none() || is_of_event || !run.is_before(middle) {
+        return Err(error);
+    }
+    run.advance(Aim::InSchemeTowards(middle))?;
+    end_at_event(watched, end)
+}
+
+/// Replaces the last step by a shorter one that ends just behind the event.
+fn locate(watched: &mut dyn Watched, mut bracket: Bracket, end: f64, place: usize) -> Stepped {
+    let whole = watched.run().report;
+    let scale = whole.time.abs() + whole.step;
+    let sharpest = SHARPEST * f64::EPSILON * scale;
+    let tolerance = watched.mark(place).map_or(0.0, |mark| mark.tolerance);
+    let resolution = Scalar::maximum(tolerance, sharpest);
+    let (mut is_behind, mut is_shorter) = (true, false);
+    while let Some(size) = bracket.candidate(resolution) {
+        watched.run().undo();
+        watched.run().advance(Aim::Again(size))?;
+        let value = value_or_undo(watched, place)?;
+        is_behind = bracket.narrow(size, value);
+        is_shorter |= is_behind;
+    }
+    if is_behind {
+        return Ok(());
+    }
+    let run = watched.run();
+    run.undo();
+    if is_shorter {
+        return run.advance(Aim::Again(bracket.high));
+    }
+    run.advance(Aim::Again(whole.step))?;
+    #[expect(clippy::float_cmp, reason = "whether the step ended there")]
+    if whole.time == end {
+        run.arrive_at(end);
+    }
+    Ok(())
+}
+
+/// The function of an event at the present state. If it fails, the last step is undone.
+fn value_or_undo(watched: &mut dyn Watched, place: usize) -> Result<f64, StepError> {
+    let value = or_restore(
+        watched,
+        |watched| watched.run().undo(),
+        |watched| watched.value(place),
+    );
+    let run = watched.run();
+    value.map_err(|failure| run.failed(run.step, failure))
+}
+
+impl Mark {
+    /// Takes the value of the function at the end of the step.
+    const fn see(&mut self, after: f64) -> &mut Self {
+        self.after = after;
+        self
+    }
+
     /// Step sizes around the change of sign within a step, if there is one in the sense of the event.
     fn bracket(&self, step: f64) -> Option<Bracket> {
         Bracket::new(self.sense, step, [self.before, self.after])
     }
+}
 
+impl<const D: usize> Event<'_, D> {
     /// The function in a state; an error unless it is a number.
     fn value(&mut self, place: usize, run: &Simulation<D>) -> Result<f64, StepFailure> {
         let value = (self.function)(run).map_err(|error| StepFailure::EventError {

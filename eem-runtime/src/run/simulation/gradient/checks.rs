@@ -144,8 +144,8 @@ impl<const D: usize> Simulation<D> {
         gradient: &Gradient<D>,
         passage: &Passage<D>,
     ) -> Result<(Change<D>, Draw), GradientError> {
-        if gradient.elements.len() != self.places.len()
-            || gradient.masses.len() != self.masses.len()
+        if gradient.elements.len() != self.run.places.len()
+            || gradient.masses.len() != self.run.masses.len()
         {
             let handle = "the gradient".to_owned();
             return Err(SceneError::ForeignHandle { handle }.into());
@@ -156,7 +156,7 @@ impl<const D: usize> Simulation<D> {
             magnitude: 0.0,
         };
         let mut change = self.no_change(passage);
-        let state = &self.state;
+        let state = &self.run.state;
         let length = size_of(state.positions.values().iter().copied());
         let speed = size_of(self.velocities_in(state));
         let theta = size_of(state.temperatures.iter().copied());
@@ -168,11 +168,11 @@ impl<const D: usize> Simulation<D> {
         start.temperatures = draw.all(&by.temperatures, theta);
         start.reservoirs = draw.all(&by.reservoirs, entropy);
         self.drop_velocities(&mut change);
-        let mass = size_of(self.masses.iter().flatten());
+        let mass = size_of(self.run.masses.iter().flatten());
         change.masses = draw.all(&gradient.masses, mass);
         let pairs: Vec<f64> = gradient.pairs.iter().map(|&(_, by)| by).collect();
         change.pairs = draw.all(&pairs, mass);
-        let gravity = size_of(self.loads.gravity.iter().copied());
+        let gravity = size_of(self.run.loads.gravity.iter().copied());
         change.gravity = gradient.gravity.map(|by| draw.of(by, gravity));
         change.heat.conductances = draw.all(&gradient.conductances, 1.0);
         change.heat.reservoirs = draw.all(&gradient.reservoirs, theta);

@@ -58,23 +58,23 @@ pub(super) struct Passage<const D: usize> {
 
 impl<const D: usize> Simulation<D> {
     pub(super) fn passage(&self) -> Passage<D> {
-        let layout = self.numbering();
+        let layout = self.run.numbering();
         let mut held = vec![false; layout.thermal];
-        for (element, _) in &self.loads.temperatures {
-            if let Some(slot) = self.slots(*element).thermal {
+        for (element, _) in &self.run.loads.temperatures {
+            if let Some(slot) = self.run.slots(*element).thermal {
                 held[slot] = true;
             }
         }
-        let pairs = self.masses.pairs().iter().chain(self.masses.held());
+        let pairs = self.run.masses.pairs().iter().chain(self.run.masses.held());
         let mut pairs: Vec<_> = pairs.map(MassPair::nodes).collect();
         pairs.sort_unstable();
         Passage {
             layout,
-            sums: self.masses.weights().into_owned(),
+            sums: self.run.masses.weights().into_owned(),
             pairs,
-            lost_heat: self.state.dissipated.value,
+            lost_heat: self.run.state.dissipated.value,
             held,
-            conduction: self.conduction.clone(),
+            conduction: self.run.conduction.clone(),
             rockets: Vec::new(),
         }
     }
@@ -90,19 +90,19 @@ impl<const D: usize> Simulation<D> {
         let at = |node: &Node| node.index * D + component;
         match quantity {
             Quantity::Position(node) => see(Of::Position(at(node)), weight),
-            Quantity::Velocity(node) if self.masses.get(node.index).is_some() => {
+            Quantity::Velocity(node) if self.run.masses.get(node.index).is_some() => {
                 see(Of::Velocity(at(node)), weight);
             }
-            Quantity::Momentum(node) if !self.masses.are_coupled() => {
-                if let Some(mass) = self.masses.get(node.index) {
+            Quantity::Momentum(node) if !self.run.masses.are_coupled() => {
+                if let Some(mass) = self.run.masses.get(node.index) {
                     see(Of::Velocity(at(node)), weight * mass);
                     let velocity = state.velocity::<D>(node.index, mass)[component];
                     see(Of::Mass(node.index), weight * velocity);
                 }
             }
             Quantity::Stretch(element) => {
-                let [group, place] = self.place(*element);
-                let &[a, b] = self.stepper.elements(group).nodes(place) else {
+                let [group, place] = self.run.place(*element);
+                let &[a, b] = self.stepper().elements(group).nodes(place) else {
                     return Err(no_derivative(quantity));
                 };
                 let [a, b] = [a, b].map(|node| node as usize);
@@ -115,10 +115,13 @@ impl<const D: usize> Simulation<D> {
                 }
             }
             Quantity::ViscousStretch(element, dashpot) => {
-                see(Of::Viscous(self.slots(*element).viscous + dashpot), weight);
+                see(
+                    Of::Viscous(self.run.slots(*element).viscous + dashpot),
+                    weight,
+                );
             }
             Quantity::Temperature(element) => {
-                if let Some(slot) = self.slots(*element).thermal {
+                if let Some(slot) = self.run.slots(*element).thermal {
                     see(Of::Temperature(slot), weight);
                 }
             }
@@ -135,7 +138,7 @@ impl<const D: usize> Simulation<D> {
                 self.see_kinetic((state, weight), passage, see);
                 self.see_potential((state, weight), passage, see);
                 self.see_internal((state, weight), see);
-                for index in 0..self.conduction.reservoirs.len() {
+                for index in 0..self.run.conduction.reservoirs.len() {
                     self.see_heat((state, weight), index, see);
                 }
             }
@@ -146,13 +149,13 @@ impl<const D: usize> Simulation<D> {
 
     /// The heat of a reservoir, `θ_r σ_r`; none for an oven: what it gives is booked as heat after each step.
     fn see_heat(&self, (state, weight): (&State, f64), index: usize, see: &mut See<'_>) {
-        if self.is_oven(index) {
+        if self.run.is_oven(index) {
             return;
         }
         let entropy = state.reservoir_entropies.values()[index];
         see(
             Of::Entropy(index),
-            weight * self.conduction.reservoirs[index],
+            weight * self.run.conduction.reservoirs[index],
         );
         see(Of::Reservoir(index), weight * entropy);
     }
@@ -160,7 +163,7 @@ impl<const D: usize> Simulation<D> {
     /// `½ vᵀ M v`.
     fn see_kinetic(&self, (state, weight): (&State, f64), passage: &Passage<D>, see: &mut See<'_>) {
         let momenta = state.momenta.values();
-        for (node, mass) in self.masses.iter().enumerate() {
+        for (node, mass) in self.run.masses.iter().enumerate() {
             let Some(mass) = mass else { continue };
             let velocity = state.velocity::<D>(node, mass);
             for (speed, at) in velocity.into_iter().zip(node * D..) {
@@ -168,10 +171,10 @@ impl<const D: usize> Simulation<D> {
                 see(Of::Mass(node), weight * 0.5 * speed * speed);
             }
         }
-        if !self.masses.are_coupled() {
+        if !self.run.masses.are_coupled() {
             return;
         }
-        for (node, _) in &self.loads.motions {
+        for (node, _) in &self.run.loads.motions {
             for at in (0..D).map(|axis| node.index * D + axis) {
                 see(Of::Velocity(at), weight * momenta[at]);
             }
@@ -191,7 +194,7 @@ impl<const D: usize> Simulation<D> {
         passage: &Passage<D>,
         see: &mut See<'_>,
     ) {
-        let gravity = self.loads.gravity;
+        let gravity = SVector::<f64, D>::from_fn(|axis, _| self.run.loads.gravity[axis]);
         for (node, &sum) in passage.sums.iter().enumerate() {
             let position = position(state, node);
             for axis in 0..D {
@@ -201,7 +204,7 @@ impl<const D: usize> Simulation<D> {
                 );
                 see(Of::Gravity(axis), -(position[axis] * (weight * sum)));
             }
-            if self.masses.get(node).is_some() {
+            if self.run.masses.get(node).is_some() {
                 see(Of::Mass(node), -(weight * dot(&gravity, &position)));
             }
         }
@@ -217,8 +220,8 @@ impl<const D: usize> Simulation<D> {
     /// `Σ e` of all elements.
     fn see_internal(&mut self, (state, weight): (&State, f64), see: &mut See<'_>) {
         // The elements are evaluated elsewhere than at the ends of their last step.
-        self.has_stepped = false;
-        let Stepper::Newton(newton) = &mut self.stepper else {
+        self.run.has_stepped = false;
+        let Stepper::Newton(newton) = self.run.stepper.of_mut::<D>() else {
             return;
         };
         for group in &mut newton.groups {

@@ -4,9 +4,10 @@ use super::derivatives::{Of, Passage, viscous_unit};
 use super::inputs::{CUBIC, Made};
 use crate::element::handle::Element;
 use crate::run::gradient::error::GradientError;
+use crate::run::gradient::input::OfTime;
 use crate::run::gradient::input::{Input, InputOf, Timed};
 use crate::run::simulation::Simulation;
-use crate::scene::loads::{OfTime, ScalarOfTime};
+use crate::scene::loads::ScalarOfTime;
 use crate::step::adjoint::{Direction, HeatChange, PerVariable, Tangents};
 use nalgebra::SVector;
 
@@ -97,9 +98,9 @@ fn one_of(count: usize, place: usize) -> Vec<f64> {
 impl<const D: usize> Simulation<D> {
     /// The change in which no input changes.
     pub(super) fn no_change(&self, passage: &Passage<D>) -> Change<D> {
-        let reservoirs = self.conduction.reservoirs.len();
+        let reservoirs = self.run.conduction.reservoirs.len();
         Change {
-            start: PerVariable::zero(self.masses.len() * D, &passage.layout, reservoirs),
+            start: PerVariable::zero(self.run.masses.len() * D, &passage.layout, reservoirs),
             parameters: Vec::new(),
             masses: Vec::new(),
             pairs: Vec::new(),
@@ -120,21 +121,21 @@ impl<const D: usize> Simulation<D> {
         passage: &Passage<D>,
     ) -> Result<Change<D>, GradientError> {
         let mut change = self.no_change(passage);
-        let reservoirs = self.conduction.reservoirs.len();
+        let reservoirs = self.run.conduction.reservoirs.len();
         match &input.of {
             InputOf::Parameter(elements, name) => {
-                change.parameters = vec![Vec::new(); self.places.len()];
+                change.parameters = vec![Vec::new(); self.run.places.len()];
                 for &element in elements {
                     change.parameters[element.index()] = self.parameter_of(element, name)?;
                 }
             }
             InputOf::Mass(node) => {
-                self.expect_own(node)?;
-                change.masses = one_of(self.masses.len(), node.index);
+                self.run.expect_own(node)?;
+                change.masses = one_of(self.run.masses.len(), node.index);
             }
             InputOf::Density(node, masses) => {
-                self.expect_own(node)?;
-                change.masses = vec![0.0; self.masses.len()];
+                self.run.expect_own(node)?;
+                change.masses = vec![0.0; self.run.masses.len()];
                 change.pairs = vec![0.0; passage.pairs.len()];
                 for &([i, j], mass) in masses {
                     if let Ok(place) = passage.pairs.binary_search(&[i, j]) {
@@ -150,37 +151,37 @@ impl<const D: usize> Simulation<D> {
                 change.gravity[axis] = 1.0;
             }
             InputOf::Conductance(path) => {
-                self.expect_own(path)?;
-                let paths = self.conduction.path_ends().len();
+                self.run.expect_own(path)?;
+                let paths = self.run.conduction.path_ends().len();
                 change.heat.conductances = one_of(paths, path.index);
             }
             InputOf::Reservoir(reservoir) => {
-                self.expect_own(reservoir)?;
+                self.run.expect_own(reservoir)?;
                 change.heat.reservoirs = one_of(reservoirs, reservoir.index);
             }
             &InputOf::Position(node, axis) => {
-                self.expect_own(&node)?;
+                self.run.expect_own(&node)?;
                 let quantity = || format!("the position of {node}");
                 GradientError::expect_component(quantity, axis, D)?;
                 change.start.positions[node.index * D + axis] = 1.0;
             }
             &InputOf::Velocity(node, axis) => {
-                self.expect_own(&node)?;
+                self.run.expect_own(&node)?;
                 let quantity = || format!("the velocity of {node}");
                 GradientError::expect_component(quantity, axis, D)?;
                 change.start.velocities[node.index * D + axis] = 1.0;
                 self.drop_velocities(&mut change);
             }
             &InputOf::Temperature(element) => {
-                let slot = self.thermal_slot(element)?;
+                let slot = self.run.thermal_slot(element)?;
                 change.start.temperatures[slot] = 1.0;
             }
             &InputOf::ViscousStretch(element, dashpot) => {
-                self.expect_own(&element)?;
-                let dashpots = self.shape(element).dashpots;
+                self.run.expect_own(&element)?;
+                let dashpots = self.run.shape(element).dashpots;
                 let quantity = || format!("the viscous stretch of {element}");
                 GradientError::expect_component(quantity, dashpot, dashpots)?;
-                let first = self.slots(element).viscous;
+                let first = self.run.slots(element).viscous;
                 change.start.viscous[first + dashpot] = 1.0;
             }
             InputOf::Vector(load, by) => {
@@ -200,9 +201,9 @@ impl<const D: usize> Simulation<D> {
 
     /// An error unless the scene has this load.
     fn expect_load(&self, load: Timed) -> Result<(), GradientError> {
-        load.expect_in(&self.scene)?;
+        load.expect_in(&self.run.scene)?;
         if let Timed::Thermostat(element) = load {
-            self.thermal_slot(element)?;
+            self.run.thermal_slot(element)?;
         }
         let all = self.timed_loads();
         if all.iter().any(|(own, _)| own.key() == load.key()) {
@@ -214,9 +215,9 @@ impl<const D: usize> Simulation<D> {
 
     /// Drops changes of initial velocities that anchors do not have: only moved ones that masses couple with other nodes have one.
     pub(super) fn drop_velocities(&self, change: &mut Change<D>) {
-        let are_moved = self.are_moved();
-        for node in self.masses.anchors() {
-            if !(self.masses.are_coupled() && are_moved[node]) {
+        let are_moved = self.run.are_moved();
+        for node in self.run.masses.anchors() {
+            if !(self.run.masses.are_coupled() && are_moved[node]) {
                 change.start.velocities[node * D..][..D].fill(0.0);
             }
         }
@@ -224,9 +225,9 @@ impl<const D: usize> Simulation<D> {
 
     /// The changes of the parameters of an element if one of them changes by one.
     fn parameter_of(&self, element: Element, name: &str) -> Result<Vec<f64>, GradientError> {
-        self.expect_own(&element)?;
-        let [group, _] = self.place(element);
-        let group = self.stepper.elements(group);
+        self.run.expect_own(&element)?;
+        let [group, _] = self.run.place(element);
+        let group = self.stepper().elements(group);
         let known = group.parameters();
         let Some(place) = known.iter().position(|own| *own == name) else {
             return Err(GradientError::no_parameter(&element, name, known));
@@ -243,16 +244,16 @@ impl<const D: usize> Simulation<D> {
         if let Some([_, unit]) = &input.named {
             return unit.clone();
         }
-        let own = |element: &Element| self.scene.owns(element);
+        let own = |element: &Element| self.run.scene.owns(element);
         let unit = match &input.of {
             InputOf::Parameter(elements, name) => elements.first().and_then(|&element| {
-                let [group, _] = own(&element).then(|| self.place(element))?;
-                let group = self.stepper.elements(group);
+                let [group, _] = own(&element).then(|| self.run.place(element))?;
+                let group = self.stepper().elements(group);
                 let place = group.parameters().iter().position(|own| *own == name)?;
                 group.parameter_units().get(place).copied()
             }),
             &InputOf::ViscousStretch(element, _) => {
-                own(&element).then(|| viscous_unit(&self.shape(element)))
+                own(&element).then(|| viscous_unit(&self.run.shape(element)))
             }
             _ => Some(input.unit()),
         };
@@ -294,7 +295,7 @@ impl<const D: usize> Simulation<D> {
             for (load, by) in &change.numbers {
                 match *load {
                     Timed::Thrust(node, number) => {
-                        let own = self.loads.rockets.iter().zip(&passage.rockets);
+                        let own = self.run.loads.rockets.iter().zip(&passage.rockets);
                         let mut own = own.filter(|(rocket, _)| rocket.line.node == node);
                         if let Some((_, rocket)) = own.nth(number) {
                             let along: SVector<f64, D> = rocket.direction.into();
@@ -302,7 +303,7 @@ impl<const D: usize> Simulation<D> {
                         }
                     }
                     Timed::Thermostat(element) => {
-                        if let Some(slot) = self.slots(element).thermal {
+                        if let Some(slot) = self.run.slots(element).thermal {
                             direction.new.temperatures[slot] += by(new.time.value);
                         }
                     }
@@ -316,7 +317,7 @@ impl<const D: usize> Simulation<D> {
                 }
             }
             for (node, &by) in change.masses.iter().enumerate() {
-                if let Some(mass) = self.masses.get(node) {
+                if let Some(mass) = self.run.masses.get(node) {
                     push(node, self.pushed(made, node, mass) * -by);
                 }
             }
@@ -337,7 +338,7 @@ impl<const D: usize> Simulation<D> {
         for (node, by) in change.motions() {
             let end = by(new.time.value);
             let mut speed = SVector::<f64, D>::from_element(0.0);
-            if self.masses.are_coupled() {
+            if self.run.masses.are_coupled() {
                 for (thirds, weight) in CUBIC {
                     let at = start + thirds * (h / 3.0);
                     speed += (end - by(at)) * (0.5 * weight / h);

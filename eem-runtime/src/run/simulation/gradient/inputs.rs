@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 use super::derivatives::{Of, Passage, viscous_unit};
 use crate::algebra::add;
 use crate::element::conduction::Partner;
+use crate::element::group::Elements;
+use crate::element::layout::Shape;
 use crate::element::loads::point;
 use crate::element::state::State;
 use crate::run::gradient::input::{Objective, Timed};
@@ -30,11 +32,11 @@ impl<const D: usize> Simulation<D> {
     /// Finds the rockets of a step and the temperatures of ovens in it.
     pub(super) fn find_loads(&self, (h, [old, new]): Made<'_>, passage: &mut Passage<D>) {
         let middle = old.time.value + 0.5 * h;
-        for (index, temperature) in &self.loads.ovens {
+        for (index, temperature) in &self.run.loads.ovens {
             passage.conduction.reservoirs[*index] = temperature(middle);
         }
         passage.rockets.clear();
-        for rocket in &self.loads.rockets {
+        for rocket in &self.run.loads.rockets {
             let impulse = h * (rocket.thrust)(middle);
             let rocket = RocketStep::new(rocket.line, impulse, [old, new]);
             passage.rockets.push(rocket);
@@ -60,14 +62,14 @@ impl<const D: usize> Simulation<D> {
     /// `Δv − h g` of a node, m/s: the change of its velocity without gravity. Where masses couple nodes, `mass` is not used.
     pub(super) fn pushed(&self, (h, states): Made<'_>, node: usize, mass: f64) -> SVector<f64, D> {
         let [old, new] = states.map(|state| state.velocity::<D>(node, mass));
-        SVector::from_fn(|axis, _| new[axis] - old[axis] - h * self.loads.gravity[axis])
+        SVector::from_fn(|axis, _| new[axis] - old[axis] - h * self.run.loads.gravity[axis])
     }
 
     /// Adds the derivatives of a step by masses, gravity, conductances and temperatures of reservoirs.
     pub(super) fn add_step(&self, made: Made<'_>, way: &mut Way<D>) {
         let (h, [old, _]) = made;
         let (weights, found) = (&way.adjoint.weights, &mut way.found);
-        for (node, mass) in self.masses.iter().enumerate() {
+        for (node, mass) in self.run.masses.iter().enumerate() {
             let Some(mass) = mass else { continue };
             let weight = vector::<D>(&weights.motion, node);
             found.masses[node] -= dot(&weight, &self.pushed(made, node, mass));
@@ -131,7 +133,7 @@ impl<const D: usize> Simulation<D> {
                     }
                 }
                 Timed::Thermostat(element) => {
-                    if let Some(slot) = self.slots(*element).thermal {
+                    if let Some(slot) = self.run.slots(*element).thermal {
                         series.0.push((end, weights.held[slot]));
                     }
                 }
@@ -182,7 +184,7 @@ impl<const D: usize> Simulation<D> {
         let weights = &way.adjoint.weights;
         let mut terms = weights.by_size;
         terms.add(way.by_size);
-        for (node, mass) in self.masses.iter().enumerate() {
+        for (node, mass) in self.run.masses.iter().enumerate() {
             let Some(mass) = mass else { continue };
             let [v0, v1] = [old, new].map(|state| state.velocity::<D>(node, mass));
             for (axis, at) in (node * D..(node + 1) * D).enumerate() {
@@ -190,7 +192,7 @@ impl<const D: usize> Simulation<D> {
                 terms.add(-v0[axis] * by_new.velocities[at] / h);
             }
         }
-        for (node, motion) in &self.loads.motions {
+        for (node, motion) in &self.run.loads.motions {
             let node = node.index;
             let is_set = matches!(motion, Course::Set(_));
             let by_speed = way.by_speeds.iter().find(|(own, _)| *own == node);
@@ -267,10 +269,17 @@ pub(super) fn add_to<const D: usize>(
 }
 
 impl<const D: usize> Simulation<D> {
+    /// All elements in the order of creation: the capabilities of their group, the group, and their index there.
+    pub(super) fn all_elements(&self) -> impl Iterator<Item = (Shape, &dyn Elements<D>, usize)> {
+        let stepper = self.stepper();
+        let places = self.run.all_places();
+        places.map(move |([group, place], shape)| (shape, stepper.elements(group), place))
+    }
+
     /// A gradient of zeros, to which the derivatives of each step are added, with the names of all parameters.
     pub(super) fn no_gradient(&self, passage: &Passage<D>) -> Gradient<D> {
-        let nodes = self.masses.len();
-        let reservoirs = self.conduction.reservoirs.len();
+        let nodes = self.run.masses.len();
+        let reservoirs = self.run.conduction.reservoirs.len();
         let elements = self.all_elements().map(|(shape, group, place)| OfElement {
             element: group.handle(place),
             slots: group.slots(place),
@@ -294,18 +303,18 @@ impl<const D: usize> Simulation<D> {
             }
         }
         Gradient {
-            scene: self.scene.clone(),
+            scene: self.run.scene.clone(),
             value: 0.0,
             unit: String::new(),
             growth: 1.0,
             start: PerVariable::zero(nodes * D, &passage.layout, reservoirs),
             moving: (0..nodes)
-                .filter(|&node| self.masses.get(node).is_some())
+                .filter(|&node| self.run.masses.get(node).is_some())
                 .collect(),
             masses: vec![0.0; nodes],
             pairs: passage.pairs.iter().map(|&nodes| (nodes, 0.0)).collect(),
             gravity: SVector::from_element(0.0),
-            conductances: vec![0.0; self.conduction.path_ends().len()],
+            conductances: vec![0.0; self.run.conduction.path_ends().len()],
             reservoirs: vec![0.0; reservoirs],
             elements: elements.collect(),
             sizes: Vec::new(),
@@ -318,7 +327,7 @@ impl<const D: usize> Simulation<D> {
 
     /// All loads whose values in the course of time are inputs, and whether they are functions of time.
     pub(super) fn timed_loads(&self) -> Vec<(Timed, bool)> {
-        let (loads, mut all) = (&self.loads, Vec::new());
+        let (loads, mut all) = (&self.run.loads, Vec::new());
         for (node, course) in &loads.forces {
             all.push((Timed::Force(*node), course.function().is_some()));
         }
@@ -328,14 +337,14 @@ impl<const D: usize> Simulation<D> {
         for (element, course) in &loads.temperatures {
             all.push((Timed::Thermostat(*element), course.function().is_some()));
         }
-        let mut rockets = vec![0; self.masses.len()];
+        let mut rockets = vec![0; self.run.masses.len()];
         for rocket in &loads.rockets {
             let node = rocket.line.node;
             all.push((Timed::Thrust(node, rockets[node.index]), true));
             rockets[node.index] += 1;
         }
         for (oven, _) in &loads.ovens {
-            all.push((Timed::Oven(self.scene.reservoir(*oven)), true));
+            all.push((Timed::Oven(self.run.scene.reservoir(*oven)), true));
         }
         all
     }

@@ -81,9 +81,9 @@ impl<const D: usize> Simulation<D> {
         if matches!(term.quantity, Quantity::TotalEnergy) {
             self.find_energies(state)?;
         }
-        mem::swap(&mut *self.state, state);
+        mem::swap(&mut *self.run.state, state);
         let values = term.quantity.present(self);
-        mem::swap(&mut *self.state, state);
+        mem::swap(&mut *self.run.state, state);
         let values = values?;
         let component = term.component;
         let quantity = || term.quantity.kind();
@@ -93,9 +93,9 @@ impl<const D: usize> Simulation<D> {
 
     /// Finds entropies and energies of a state from its temperatures.
     fn find_energies(&mut self, state: &mut State) -> Result<(), GradientError> {
-        self.has_stepped = false;
+        self.run.has_stepped = false;
         let mut refused = None;
-        self.stepper.each_mut(|elements| {
+        self.run.stepper.of_mut::<D>().each_mut(|elements| {
             elements.initialize(state, &mut |error| refused = Some(error));
         });
         refused.map_or(Ok(()), |error| Err(error.into()))

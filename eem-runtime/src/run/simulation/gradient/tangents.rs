@@ -136,13 +136,13 @@ impl<const D: usize> Simulation<D> {
         (passage, changes): (Passage<D>, Vec<Change<D>>),
         see: &mut Visit<'_, D>,
     ) -> Result<(), GradientError> {
-        let last = State::clone(&self.state);
+        let last = State::clone(&self.run.state);
         let mut ends = [(); 2].map(|()| last.clone());
         let Some(mut here) = kept.at(0).cloned() else {
             return Err(GradientError::NoHistory);
         };
         match kept.all() {
-            Some(all) => all.load::<D>(0, &self.masses, &mut ends[1]),
+            Some(all) => all.load::<D>(0, &self.run.masses, &mut ends[1]),
             None => ends[1].clone_from(&here.state),
         }
         let mut way = self.way_forward(&ends[1], passage, changes)?;
@@ -154,7 +154,7 @@ impl<const D: usize> Simulation<D> {
         while from < kept.len() {
             self.return_to_state(&here);
             let to = kept.len().min(from + kept.block());
-            let mut states = Kept::new(&self.state, to - from + 1);
+            let mut states = Kept::new(&self.run.state, to - from + 1);
             self.make_again([from, to], kept, |state| states.keep(state))?;
             here = self.snapshot_of(to);
             if to == kept.len() && !states.ends_in(&last) {
@@ -178,7 +178,7 @@ impl<const D: usize> Simulation<D> {
     ) -> Result<(), GradientError> {
         for at in 0..states.len() {
             mem::swap(old, new);
-            states.load::<D>(at + 1, &self.masses, new);
+            states.load::<D>(at + 1, &self.run.masses, new);
             self.push((kept.size(from + at), [old, new]), way)?;
             see(self, (from + at + 1, new), way)?;
         }
@@ -192,11 +192,16 @@ impl<const D: usize> Simulation<D> {
         passage: Passage<D>,
         changes: Vec<Change<D>>,
     ) -> Result<Forward<D>, GradientError> {
-        let Stepper::Newton(newton) = &mut self.stepper else {
-            return Err(no_adjoint(self.in_use, self.time()));
+        let Stepper::Newton(newton) = self.run.stepper.of_mut::<D>() else {
+            return Err(no_adjoint(self.run.in_use, self.time()));
         };
         let system = newton.solver.tangent_mut();
-        let tangents = Tangents::new(&passage.layout, &self.masses, &self.conduction, system);
+        let tangents = Tangents::new(
+            &passage.layout,
+            &self.run.masses,
+            &self.run.conduction,
+            system,
+        );
         let directions = changes.iter().map(|change| {
             let heat = &change.heat;
             let is_warmed = !(heat.conductances.is_empty() && heat.reservoirs.is_empty());
@@ -207,7 +212,7 @@ impl<const D: usize> Simulation<D> {
         Ok(Forward {
             directions: directions.collect(),
             heats: changes.iter().map(|change| change.heat.clone()).collect(),
-            anchors: self.masses.anchors().collect(),
+            anchors: self.run.masses.anchors().collect(),
             passage,
             changes,
             tangents,
@@ -225,7 +230,7 @@ impl<const D: usize> Simulation<D> {
         })?;
         let time = made.1[1].time.value;
         for direction in &mut way.directions {
-            for (oven, _) in &self.loads.ovens {
+            for (oven, _) in &self.run.loads.ovens {
                 // An oven keeps no entropy: what it receives is booked as heat after the step.
                 direction.new.reservoirs[*oven] = 0.0;
             }
@@ -239,13 +244,13 @@ impl<const D: usize> Simulation<D> {
 
     /// Calls a function that makes steps, and restores everything afterwards.
     pub(super) fn with_steps_again<T>(&mut self, act: impl FnOnce(&mut Self) -> T) -> T {
-        let before = self.snapshot();
-        let reservoirs = self.conduction.reservoirs.clone();
-        let (iterations, end) = (self.effort.history.clone(), self.effort.end);
+        let before = self.run.snapshot();
+        let reservoirs = self.run.conduction.reservoirs.clone();
+        let (iterations, end) = (self.run.effort.history.clone(), self.run.effort.end);
         let guard = Guard::new(self, |run| {
-            run.return_to_snapshot(&before);
-            run.conduction.reservoirs = reservoirs;
-            (run.effort.history, run.effort.end) = (iterations, end);
+            run.run.return_to_snapshot(&before);
+            run.run.conduction.reservoirs = reservoirs;
+            (run.run.effort.history, run.run.effort.end) = (iterations, end);
         });
         act(&mut *guard.value)
     }
@@ -261,7 +266,7 @@ impl<const D: usize> Simulation<D> {
             if let Some(snapshot) = kept.at(from) {
                 self.return_to_state(snapshot);
             }
-            let mut states = Kept::new(&self.state, to - from + 1);
+            let mut states = Kept::new(&self.run.state, to - from + 1);
             self.make_again([from, to], kept, |state| {
                 if keeps_all {
                     states.keep(state);
@@ -287,28 +292,28 @@ impl<const D: usize> Simulation<D> {
     ) -> Result<(), GradientError> {
         for step in from..to {
             self.look()?;
-            self.step_by(kept.size(step))?;
+            self.run.step_by(kept.size(step))?;
             if let Some(time) = kept.arrival(step + 1) {
-                self.state.time = Sum::new(time);
+                self.run.state.time = Sum::new(time);
             }
-            see(&self.state);
+            see(&self.run.state);
         }
         Ok(())
     }
 
     /// The present state, after `index` steps, with what the next step depends on.
     pub(super) fn snapshot_of(&self, index: usize) -> Snapshot {
-        let (past, _) = self.stepper.past(&self.state);
+        let (past, _) = self.run.stepper.past(&self.run.state);
         Snapshot {
             index,
-            state: State::clone(&self.state),
+            state: State::clone(&self.run.state),
             past,
         }
     }
 
     /// Goes back to the state of a snapshot.
     pub(super) fn return_to_state(&mut self, snapshot: &Snapshot) {
-        self.state.copy_all_from(&snapshot.state);
-        self.stepper.restore(&snapshot.past, None);
+        self.run.state.copy_all_from(&snapshot.state);
+        self.run.stepper.restore(&snapshot.past, None);
     }
 }

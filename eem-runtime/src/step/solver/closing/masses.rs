@@ -28,10 +28,10 @@ impl<const D: usize> Solver<D> {
         let is_exact = self.scheme.is_exact();
         let takes_increments = self.scheme.closing() == Closing::Increments;
         let mut largest = Largest::default();
-        self.past.remember();
+        self.past.history.remember();
         if !self.coupling.is_none() {
-            let nodes = (self.nodes.as_slice(), &self.trial);
-            self.coupling.find_impulses(0, nodes, twice_per_step);
+            self.find_factors(0);
+            self.coupling.find_impulses(Some(0), twice_per_step);
         }
         for (moving, node) in self.nodes.iter().enumerate() {
             let at = node.node;
@@ -75,10 +75,11 @@ impl<const D: usize> Solver<D> {
     fn book_work(&self, view: &StepView<'_>, next: &mut State) {
         for node in &self.nodes {
             let at = node.node;
-            let force = self.rockets.add_to(view.loads.force(at), [0, at]);
-            for (force, &displacement) in force.into_iter().zip(&self.trial.displacements[at]) {
-                if force != 0.0 {
-                    next.work.add(force * displacement);
+            let force: [f64; D] = self.rockets.add_to(view.loads.force(at), [0, at]);
+            let moved = &self.trial.displacements[at];
+            for axis in 0..D {
+                if force[axis] != 0.0 {
+                    next.work.add(force[axis] * moved[axis]);
                 }
             }
         }
@@ -110,14 +111,14 @@ pub(super) fn move_node<const D: usize>(
     if (by_position + by_momentum).is_finite() {
         return Ok(());
     }
-    find_unbounded::<D>(node, next)
+    find_unbounded(node, D, next)
 }
 
 /// The error with the first coordinate of a node that is not finite.
 #[cold]
-fn find_unbounded<const D: usize>(node: usize, state: &State) -> Result<(), StepFailure> {
-    for axis in 0..D {
-        let at = node * D + axis;
+fn find_unbounded(node: usize, dimension: usize, state: &State) -> Result<(), StepFailure> {
+    for axis in 0..dimension {
+        let at = node * dimension + axis;
         let values = [state.positions.values()[at], state.momenta.values()[at]];
         for (quantity, value) in ["position", "momentum"].into_iter().zip(values) {
             if !value.is_finite() {

@@ -27,7 +27,7 @@ use crate::step::newton::Largest;
 use crate::step::solver::Solver;
 use crate::step::solver::closing::masses::{carry, follow_coupled_masses, move_node};
 use crate::step::solver::closing::stages::weight_of;
-use crate::step::solver::coupling::changes_at_stages;
+use crate::step::solver::coupling::find_changes;
 use crate::step::solver::stages::Stages;
 
 impl<const D: usize> Solver<D> {
@@ -42,12 +42,13 @@ impl<const D: usize> Solver<D> {
         let mut largest = Largest::default();
         for (set, weights) in stages.rule.positions.iter().enumerate() {
             let nodes = self.range_of_set(set);
-            let of_set = (&self.nodes[nodes.clone()], &self.trial);
-            self.coupling.find_impulses(set, of_set, inertias[set]);
+            self.find_factors(set);
+            self.coupling.find_impulses(Some(set), inertias[set]);
             for (index, moving) in self.nodes[nodes].iter().enumerate() {
                 let node = moving.node;
                 let [gained, terms] = (self.coupling).impulse((index, moving), &self.trial);
-                let terms = self.coupling.found(index).map_or([0.0; D], |_| terms);
+                let is_single = self.coupling.is_none();
+                let terms = if is_single { [0.0; D] } else { terms };
                 let impulse = stages.combined(node, weights);
                 let residual = difference(&gained, &impulse);
                 largest.see_all(&residual);
@@ -97,7 +98,7 @@ impl<const D: usize> Solver<D> {
                 add(&mut rest, weight, &change);
             }
             let coupled = self.coupling.found(index).zip(stages.changes.get(node));
-            let (impulse, speeds) = if let Some((&[impulse, _], &change)) = coupled {
+            let (impulse, speeds) = if let Some(([&impulse, _], &change)) = coupled {
                 let [&old, _] = state.velocities.point::<D>(node);
                 let none = [0.0; D];
                 (next.velocities).advance_point(node, &state.velocities, [&change, &none]);
@@ -151,8 +152,12 @@ impl<const D: usize> Solver<D> {
             let gained = combined(weights, self.changes(index));
             stages.changes[node] = scaled(view.per_step, &gained);
         }
-        let nodes = &self.nodes[..self.moving()];
-        self.coupling.find_impulses_of_step(nodes, &stages.changes);
+        let factors = self.coupling.factors.as_chunks_mut::<D>().0;
+        for (node, factors) in self.nodes.iter().zip(factors.chunks_exact_mut(2)) {
+            let change = &stages.changes[node.node];
+            (factors[0], factors[1]) = (*change, vector(|axis| change[axis].abs()));
+        }
+        self.coupling.find_impulses(None, 1.0);
     }
 
     /// Adds work and impulse of loads and weight on a node in the step.
@@ -270,6 +275,17 @@ impl<const D: usize> Solver<D> {
         }
         differentiated(stages.rule.motion, &beyond)
     }
+}
+
+/// The change of the velocity of a moved anchor from the old state to each stage, m/s.
+fn changes_at_stages<const D: usize>(
+    path: &Path,
+    node: usize,
+    view: &StepView<'_>,
+) -> [[f64; D]; MOST_STAGES] {
+    let mut changes = [[0.0; D]; MOST_STAGES];
+    find_changes(path, node, view, changes.as_flattened_mut());
+    changes
 }
 
 /// `h ẋ` at the stages of a polynomial x(t) that vanishes at the start of the step, from its values at the stages.
