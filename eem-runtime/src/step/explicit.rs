@@ -14,6 +14,7 @@
 
 mod accounts;
 mod attempt;
+mod bodies;
 mod booking;
 mod closing;
 mod components;
@@ -45,64 +46,53 @@ use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::scene::loads::Loads;
 use crate::step::control::{LeastScales, LoadRounding};
-use accounts::Accounts;
+use accounts::{Accounts, Outside};
+use bodies::BodiesIn;
 use components::Components;
-use memory::{LoadSums, Momenta, Motion};
-use prescribed::{Prescribed, held};
+use memory::Momenta;
 
 pub(crate) use demand::Demand;
 pub(crate) use memory::SavedExplicit;
 pub(crate) use tableau::{REAL_LIMIT, load_rule, motion_rule};
 
 /// The explicit scheme for a scene.
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "each says something of its own"
-)]
 pub(crate) struct Explicit<const D: usize> {
     groups: Vec<Box<dyn ExplicitGroup<D>>>,
     accounts: Accounts,
     /// Masses, then anchors.
     places: Vec<Place<D>>,
-    prescribed: Prescribed<D>,
-    /// Whether forces are functions of time.
-    has_functions: bool,
-    /// The loads at the present stage, and at the start of the step.
-    loads: StepLoads,
-    start_loads: StepLoads,
-    /// The number of places, entries of the stage vector, whose rates are kept: masses, and anchors where some are moved.
-    kept_places: usize,
-    /// Work and impulses of the loads on each component since the start of the step; empty without loads.
-    load_sums: Vec<LoadSums<D>>,
-    /// The targets of the momenta of each component, now and before the step.
+    /// The momenta of each component.
     momenta: Vec<Momenta<D>>,
-    old_momenta: Vec<Momenta<D>>,
-    /// The motion of each component.
-    motions: Vec<Motion<D>>,
-    /// The forces of the elements on places, where they are needed, N.
-    forces: Vec<[f64; D]>,
-    /// Whether rates and targets belong to the state, now and before the last attempt.
-    is_ready: bool,
-    was_ready: bool,
-    /// Whether the stage has left the start of a step that was not accepted, so that it has to be restored.
-    has_left: bool,
-    /// How often all elements have been evaluated.
-    evaluations: u64,
-    /// The rounding of the loads of the last step where it was needed.
-    rounding: LoadRounding,
+    /// The impulses of the loads on each component since the start of the step, per step; empty without loads.
+    impulses: Vec<Momenta<D>>,
 }
 
-/// The input of a step.
+/// The input of a step, without loads.
 #[derive(Clone, Copy)]
-pub(crate) struct ExplicitView<'a, const D: usize> {
+pub(crate) struct View<'a> {
     /// h, s.
     pub(crate) step: f64,
     /// The old state.
     pub(crate) state: &'a State,
     pub(crate) conduction: &'a Conduction,
-    pub(crate) loads: &'a Loads<D>,
     pub(crate) masses: &'a Masses,
     pub(crate) least: &'a LeastScales,
+}
+
+/// The input of a step.
+#[derive(Clone, Copy)]
+pub(crate) struct ExplicitView<'a, const D: usize> {
+    pub(crate) view: View<'a>,
+    pub(crate) loads: &'a Loads<D>,
+}
+
+impl<'a, const D: usize> Deref for ExplicitView<'a, D> {
+    type Target = View<'a>;
+
+    #[inline]
+    fn deref(&self) -> &View<'a> {
+        &self.view
+    }
 }
 
 /// The scene for which an explicit scheme is built.
@@ -118,51 +108,49 @@ pub(crate) struct Site<'a, const D: usize> {
 impl<const D: usize> Explicit<D> {
     /// For these groups, which know their entropies already.
     pub(crate) fn new(mut groups: Vec<Box<dyn ExplicitGroup<D>>>, site: Site<'_, D>) -> Self {
-        let components = Components::new(site.masses, site.elements, site.layout, site.conduction);
-        let place_of = components.place_of();
+        let (components, ends) =
+            Components::new(site.masses, site.elements, site.layout, site.conduction);
         for group in &mut groups {
-            group.join((&components.of_element, site.layout.viscous), &place_of);
+            group.join((&components.of_element, &ends), site.layout.viscous);
         }
-        let prescribed = Prescribed::new(site.loads, &components);
-        let held = held(&site.loads.temperatures, site.layout);
-        let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads, false);
-        let counts = [site.masses.len(), site.layout.thermal];
-        let rounding = LoadRounding::new(site.loads, loads.slots.clone(), counts);
-        let moves = !prescribed.moved.is_empty();
-        let has_loads = loads.has_total_force() || moves;
         let mut places = Vec::with_capacity(components.nodes.len());
         for &node in &components.nodes {
             places.push(Place::new(site.masses.get(node).unwrap_or(0.0)));
         }
-        let count = components.all.len();
-        let momenta = vec![Momenta::none(); count];
-        Self {
-            load_sums: vec![LoadSums::none(); if has_loads { count } else { 0 }],
-            old_momenta: momenta.clone(),
-            momenta,
-            motions: vec![Motion::none(); count],
-            forces: vec![[0.0; D]; places.len()],
-            kept_places: if moves {
-                places.len()
-            } else {
-                components.masses
-            },
-            places,
-            accounts: Accounts::new(
-                (components, held),
-                (site.layout, site.conduction, site.masses.len()),
-                has_loads,
-            ),
-            groups,
-            prescribed,
-            start_loads: loads.clone(),
+        let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads, false);
+        let counts = [site.masses.len(), site.layout.thermal];
+        let mut moved = Vec::with_capacity(site.loads.motions.len());
+        for &(node, _) in &site.loads.motions {
+            moved.push(node);
+        }
+        let outside = Outside {
+            rounding: LoadRounding::new(site.loads, loads.slots.clone(), counts),
             loads,
             has_functions: site.loads.have_forces_of_time(),
-            is_ready: false,
-            was_ready: false,
-            has_left: false,
-            evaluations: 0,
-            rounding,
+            moved,
+            temperatures: &site.loads.temperatures,
+        };
+        let momenta = vec![Momenta::none(); components.all.len()];
+        let places_of = (site.layout, site.conduction);
+        let accounts = Accounts::new((components, outside), places_of, [site.masses.len(), D]);
+        Self {
+            impulses: momenta[..accounts.load_sums.len()].to_vec(),
+            momenta,
+            places,
+            accounts,
+            groups,
+        }
+    }
+
+    /// What the accounts may ask of the bodies.
+    fn bodies<'a>(
+        (groups, places): (&'a [Box<dyn ExplicitGroup<D>>], &'a [Place<D>]),
+        view: &ExplicitView<'a, D>,
+    ) -> BodiesIn<'a, D> {
+        BodiesIn {
+            places,
+            groups,
+            loads: view.loads,
         }
     }
 
@@ -191,7 +179,7 @@ impl<const D: usize> Explicit<D> {
 
     /// How often all elements have been evaluated.
     pub(crate) const fn evaluations(&self) -> u64 {
-        self.evaluations
+        self.accounts.evaluations
     }
 
     /// Whether energy defects are closed by motion before heat.

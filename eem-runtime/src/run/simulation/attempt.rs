@@ -36,12 +36,14 @@ macro_rules! view {
 macro_rules! explicit_view {
     ($simulation:ident, $step:expr) => {
         crate::step::explicit::ExplicitView {
-            step: $step,
-            state: &$simulation.state,
-            conduction: &$simulation.conduction,
+            view: crate::step::explicit::View {
+                step: $step,
+                state: &$simulation.state,
+                conduction: &$simulation.conduction,
+                masses: &$simulation.masses,
+                least: &$simulation.least,
+            },
             loads: &$simulation.loads,
-            masses: &$simulation.masses,
-            least: &$simulation.least,
         }
     };
 }

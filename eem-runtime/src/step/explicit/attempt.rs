@@ -1,15 +1,81 @@
 //! One attempt at a step, which changes nothing until it is accepted.
 
 use super::accounts::Accounts;
+use super::bodies::Bodies;
 use super::demand::Demand;
 use super::error::Measure;
 use super::tableau::STAGES;
-use super::{Explicit, ExplicitView};
+use super::{Explicit, ExplicitView, View};
+use crate::element::group::points;
 use crate::element::state::State;
+use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
 use crate::step::outcome::Attempt;
 
 impl Accounts {
+    /// Finds what is prescribed at the stages of a step.
+    fn evaluate_supports<const D: usize>(
+        &mut self,
+        view: &View<'_>,
+        loads: &Loads<D>,
+    ) -> Result<(), StepFailure> {
+        let span = [view.state.time.value, view.step];
+        let old = points::<D>(view.state.positions.values());
+        self.prescribed.evaluate(
+            &|moved, [time, elapsed], found| {
+                let course = &loads.motions[moved.motion].1;
+                let at = course.position(time, &old[moved.node.index], elapsed);
+                found.copy_from_slice(at.as_slice());
+            },
+            span,
+        )?;
+        for held in &mut self.held {
+            let from = view.state.temperatures[held.slot];
+            held.evaluate(&loads.temperatures, span, from)?;
+        }
+        Ok(())
+    }
+
+    /// The largest defect of all components before closing.
+    #[inline]
+    fn largest_correction(&self) -> f64 {
+        let mut largest = 0.0_f64;
+        for progress in &self.scratch.progress {
+            if largest.abs() < progress.correction.abs() {
+                largest = progress.correction;
+            }
+        }
+        largest
+    }
+
+    /// The same without those beyond a limit that are rounding; an error if one is left.
+    #[cold]
+    fn correction_beyond_rounding(
+        &mut self,
+        bodies: &dyn Bodies,
+        view: &View<'_>,
+        limit: f64,
+    ) -> Result<f64, StepFailure> {
+        let mut largest = 0.0_f64;
+        for index in 0..self.scratch.progress.len() {
+            let progress = &self.scratch.progress[index];
+            let (own, scale) = (progress.correction, progress.scale);
+            let is_rounding = !(own.abs() <= limit)
+                && (own * scale).abs() <= self.explained(bodies, index, scale, view);
+            if !is_rounding && largest.abs() < own.abs() {
+                largest = own;
+            }
+        }
+        if largest.abs() <= limit {
+            return Ok(largest);
+        }
+        Err(StepFailure::Correction {
+            correction: largest.abs(),
+            limit,
+            time: view.state.time.value + view.step,
+        })
+    }
+
     /// Writes the closed internal variables.
     #[inline]
     fn store(&self, next: &mut State) {
@@ -24,11 +90,22 @@ impl Accounts {
             next.book_thermostat(balance.heat, balance.given);
         }
     }
+
+    /// Undoes the accepted step.
+    pub(crate) fn undo(&mut self) {
+        self.has_left = true;
+        self.is_ready = self.was_ready;
+    }
+
+    /// Makes the next step start from another state, for which rates and targets are evaluated again.
+    pub(crate) fn forget(&mut self) {
+        self.is_ready = false;
+    }
 }
 
 impl<const D: usize> Explicit<D> {
     /// Writes the state after a step to `next`, from the state of the last accepted step or, after
-    /// [`forget`](Self::forget), from any state. The outcome is `None` if the error exceeds the demand.
+    /// [`forget`](Accounts::forget), from any state. The outcome is `None` if the error exceeds the demand.
     pub(crate) fn step(
         &mut self,
         view: &ExplicitView<'_, D>,
@@ -47,6 +124,13 @@ impl<const D: usize> Explicit<D> {
         attempt.map_err(|failure| self.explain(failure, view))
     }
 
+    /// The reason behind a failure, if the step is too long to be stable.
+    #[cold]
+    fn explain(&mut self, failure: StepFailure, view: &ExplicitView<'_, D>) -> StepFailure {
+        let bodies = Self::bodies((&self.groups, &self.places), view);
+        self.accounts.explain(&bodies, failure, view)
+    }
+
     #[inline]
     fn attempt(
         &mut self,
@@ -54,15 +138,8 @@ impl<const D: usize> Explicit<D> {
         demand: Demand,
         next: &mut State,
     ) -> Result<Attempt, StepFailure> {
-        let [start, h] = [view.state.time.value, view.step];
-        let time = start + h;
         if self.is_driven {
-            self.prescribed
-                .evaluate(view.loads, [start, h], view.state)?;
-            for held in &mut self.accounts.held {
-                let from = view.state.temperatures[held.slot];
-                held.evaluate(&view.loads.temperatures, [start, h], from)?;
-            }
+            self.evaluate_supports(view, view.loads)?;
         }
         let scales = self.approach(view, next)?;
         let measure = match &demand {
@@ -71,68 +148,39 @@ impl<const D: usize> Explicit<D> {
                 view,
                 tolerance,
                 scales,
+                dimension: D,
             }),
         };
-        let error = measure.as_ref().map_or(0.0, |by| self.estimate(by));
-        if !(error <= 1.0) {
-            return Ok(Attempt::rejected(error));
+        let mut error = 0.0;
+        if let Some(by) = &measure {
+            error = self.estimate(by, view);
+            if !(error <= 1.0) {
+                return Ok(Attempt::rejected(error));
+            }
         }
         self.book(view, next);
         self.close(view, (demand, scales), next)?;
-        let moved = measure.as_ref().map_or(0.0, |by| self.moved(by));
-        if !(moved <= 1.0) {
-            return Ok(Attempt::rejected(moved));
+        if let Some(by) = &measure {
+            let bodies = Self::bodies((&self.groups, &self.places), view);
+            let moved = self.accounts.moved(&bodies, by);
+            if !(moved <= 1.0) {
+                return Ok(Attempt::rejected(moved));
+            }
         }
         if next.meters.are_on {
-            self.meter(h, next);
+            self.accounts.meter(view.step, next);
         }
-        let correction = self.correction(view, demand, time)?;
+        let (mut correction, limit) = (self.largest_correction(), demand.largest_correction());
+        if !(correction.abs() <= limit) {
+            let bodies = Self::bodies((&self.groups, &self.places), view);
+            correction = (self.accounts).correction_beyond_rounding(&bodies, view, limit)?;
+        }
         self.book_constant_loads(view, next);
         self.finish()?;
         self.store(next);
         self.books.largest_momentum = scales.momentum;
-        let outcome = Some(self.prove(correction, (view.state, time))?);
+        let outcome = Some(self.prove(correction, view)?);
         Ok(Attempt { error, outcome })
-    }
-
-    /// Undoes the accepted step.
-    pub(crate) fn undo(&mut self) {
-        self.has_left = true;
-        self.is_ready = self.was_ready;
-    }
-
-    /// Makes the next step start from another state, for which rates and targets are evaluated again.
-    pub(crate) fn forget(&mut self) {
-        self.is_ready = false;
-    }
-
-    /// The largest defect of all components before closing; an error unless it is small, or rounding.
-    #[inline]
-    fn correction(
-        &mut self,
-        view: &ExplicitView<'_, D>,
-        demand: Demand,
-        time: f64,
-    ) -> Result<f64, StepFailure> {
-        let mut largest = 0.0_f64;
-        let limit = demand.largest_correction();
-        for index in 0..self.scratch.progress.len() {
-            let progress = &self.scratch.progress[index];
-            let (own, scale) = (progress.correction, progress.scale);
-            let is_rounding =
-                !(own.abs() <= limit) && (own * scale).abs() <= self.explained(index, scale, view);
-            if !is_rounding && largest.abs() < own.abs() {
-                largest = own;
-            }
-        }
-        if largest.abs() <= limit {
-            return Ok(largest);
-        }
-        Err(StepFailure::Correction {
-            correction: largest.abs(),
-            limit,
-            time,
-        })
     }
 
     /// Writes the closed state.
@@ -144,7 +192,7 @@ impl<const D: usize> Explicit<D> {
             next.momenta.set_point(node, place.p());
         }
         for moved in &self.prescribed.moved {
-            let end = &moved.positions[STAGES - 1];
+            let end = &points::<D>(&moved.positions)[STAGES - 1];
             next.positions.set_point(moved.node.index, end);
         }
         self.accounts.store(next);

@@ -70,17 +70,17 @@ impl<const D: usize> Explicit<D> {
                 if !self.scratch.open[index] {
                     continue;
                 }
-                let of = (index, &self.motions[index].energy);
-                let status = self.accounts.balance(of, demand, next);
+                let status = self.balance(index, demand, next);
                 self.scratch.open[index] = status == Status::Changed;
                 self.scratch.needs_forces[index] = status == Status::NeedsForces;
             }
             if self.scratch.needs_forces.contains(&true) {
+                let bodies = Self::bodies((&self.groups, &self.places), view);
                 if !has_looked {
-                    self.expect_stable_dashpots(view)?;
+                    self.accounts.expect_stable_dashpots(&bodies, view)?;
                     has_looked = true;
                 }
-                self.find_forces();
+                self.accounts.find_forces(&bodies);
                 for index in 0..self.components.all.len() {
                     if self.scratch.needs_forces[index] {
                         let status = self.reshape(index, (view, demand), next);
@@ -120,7 +120,7 @@ impl<const D: usize> Explicit<D> {
             next,
             energies: &mut scratch.energies,
         };
-        self.evaluations += 1;
+        self.accounts.evaluations += 1;
         for group in &mut self.groups {
             group.close(&mut view)?;
         }
@@ -128,16 +128,5 @@ impl<const D: usize> Explicit<D> {
             self.book_thermostats(explicit.state, next);
         }
         Ok(())
-    }
-
-    /// Finds the constant forces and those of elements in the components that need them: the negative gradient of the energy.
-    fn find_forces(&mut self) {
-        let scratch = &mut self.accounts.scratch;
-        for (force, place) in self.forces.iter_mut().zip(&self.places) {
-            *force = place.force;
-        }
-        for group in &self.groups {
-            group.pull(&scratch.needs_forces, &mut self.forces, &mut scratch.creep);
-        }
     }
 }

@@ -5,14 +5,10 @@
 //! order above that of the scheme.
 
 use core::f64::consts::PI;
-use std::collections::BTreeMap;
 
 use crate::algebra::vector;
-use crate::element::group::points;
 use crate::element::handle::{Element, Node};
-use crate::element::layout::Layout;
-use crate::element::state::State;
-use crate::scene::loads::{Loads, TemperatureCourse};
+use crate::scene::loads::TemperatureCourse;
 use crate::step::error::StepFailure;
 use crate::step::explicit::components::Components;
 use crate::step::explicit::tableau::{STAGES, TIMES};
@@ -62,15 +58,15 @@ impl Interpolation {
 
 /// An anchor that is moved.
 #[derive(Clone, Debug)]
-pub(super) struct Moved<const D: usize> {
+pub(super) struct Moved {
     pub(super) node: Node,
     /// Its places in the stage vector.
     pub(super) places: Vec<usize>,
     /// The index of its motion in the scene.
-    motion: usize,
-    /// At the stages, m and m/s.
-    pub(super) positions: [[f64; D]; STAGES],
-    pub(super) velocities: [[f64; D]; STAGES],
+    pub(super) motion: usize,
+    /// At the stages, a vector each, m and m/s.
+    pub(super) positions: Vec<f64>,
+    pub(super) velocities: Vec<f64>,
 }
 
 /// An element with a thermostat.
@@ -84,64 +80,74 @@ pub(super) struct Held {
     pub(super) temperatures: [f64; STAGES],
 }
 
-/// The elements with thermostats.
-pub(super) fn held(courses: &[(Element, TemperatureCourse)], layout: &Layout) -> Vec<Held> {
-    let slots = courses.iter();
-    let all = last_of_each(slots.map(|(of, _)| layout.elements[of.index()].thermal));
-    let all = all.map(|(temperature, slot)| Held {
-        element: courses[temperature].0,
-        slot,
-        temperature,
-        temperatures: [1.0; STAGES],
-    });
-    all.collect()
+/// The elements with thermostats, given the thermal slots of prescribed temperatures.
+pub(super) fn held(courses: &[(Element, TemperatureCourse)], slots: &[Option<usize>]) -> Vec<Held> {
+    let mut all = Vec::new();
+    for (temperature, slot) in last_of_each(slots) {
+        all.push(Held {
+            element: courses[temperature].0,
+            slot,
+            temperature,
+            temperatures: [1.0; STAGES],
+        });
+    }
+    all
 }
 
 /// All anchors that are moved in a scene.
 #[derive(Clone, Debug)]
-pub(super) struct Prescribed<const D: usize> {
+pub(super) struct Prescribed {
     /// `None` if no anchor is moved.
     interpolation: Option<Interpolation>,
-    pub(super) moved: Vec<Moved<D>>,
+    pub(super) moved: Vec<Moved>,
+    /// The positions at the points, m.
+    positions: Vec<f64>,
 }
 
-impl<const D: usize> Prescribed<D> {
-    pub(super) fn new(loads: &Loads<D>, components: &Components) -> Self {
-        let mut places: BTreeMap<_, Vec<_>> = BTreeMap::new();
-        let anchors = components.masses..components.nodes.len();
-        for place in anchors.filter(|_| !loads.motions.is_empty()) {
-            places
-                .entry(components.nodes[place])
-                .or_default()
-                .push(place);
+/// A function that writes the position of an anchor, m, at a time, s, and so much after the start of the step.
+type Position<'a> = &'a dyn Fn(&Moved, [f64; 2], &mut [f64]);
+
+impl Prescribed {
+    /// For the motions of these nodes.
+    pub(super) fn new(motions: &[Node], components: &Components, dimension: usize) -> Self {
+        let mut nodes = Vec::with_capacity(motions.len());
+        for node in motions {
+            nodes.push(Some(node.index));
         }
-        let motions = loads.motions.iter();
-        let moved = last_of_each(motions.map(|(node, _)| Some(node.index)));
-        let moved = moved.map(|(motion, node)| Moved {
-            node: loads.motions[motion].0,
-            places: places.remove(&node).unwrap_or_default(),
-            motion,
-            positions: [[0.0; D]; STAGES],
-            velocities: [[0.0; D]; STAGES],
-        });
-        let moved: Vec<_> = moved.collect();
+        let mut moved = Vec::new();
+        let mut at_node = Vec::new();
+        for (motion, node) in last_of_each(&nodes) {
+            at_node.resize(at_node.len().max(node + 1), None);
+            at_node[node] = Some(moved.len());
+            moved.push(Moved {
+                node: motions[motion],
+                places: Vec::new(),
+                motion,
+                positions: vec![0.0; STAGES * dimension],
+                velocities: vec![0.0; STAGES * dimension],
+            });
+        }
+        for place in components.masses..components.nodes.len() {
+            if let Some(&Some(index)) = at_node.get(components.nodes[place]) {
+                moved[index].places.push(place);
+            }
+        }
         Self {
             interpolation: (!moved.is_empty()).then(Interpolation::new),
             moved,
+            positions: vec![0.0; POINTS * dimension],
         }
     }
 
     /// Evaluates all motions at the stages of a step of size `step` that begins at `time`.
     pub(super) fn evaluate(
         &mut self,
-        loads: &Loads<D>,
-        [time, step]: [f64; 2],
-        old: &State,
+        position: Position<'_>,
+        span: [f64; 2],
     ) -> Result<(), StepFailure> {
         if let Some(interpolation) = &self.interpolation {
             for moved in &mut self.moved {
-                let from = points::<D>(old.positions.values())[moved.node.index];
-                moved.evaluate(interpolation, loads, ([time, step], &from))?;
+                moved.evaluate(interpolation, position, (span, &mut self.positions))?;
             }
         }
         Ok(())
@@ -149,17 +155,17 @@ impl<const D: usize> Prescribed<D> {
 }
 
 /// The indices of loads with what they act on: of several that act on the same the last one counts, as in implicit schemes.
-fn last_of_each(
-    targets: impl Iterator<Item = Option<usize>> + Clone,
-) -> impl Iterator<Item = (usize, usize)> {
-    let of = targets
-        .enumerate()
-        .filter_map(|(load, target)| Some((load, target?)));
-    let mut last = BTreeMap::new();
-    for (load, target) in of.clone() {
-        last.insert(target, load);
+fn last_of_each(targets: &[Option<usize>]) -> Vec<(usize, usize)> {
+    let (mut last, mut all) = (Vec::new(), Vec::new());
+    for (load, target) in targets.iter().enumerate() {
+        if let &Some(target) = target {
+            last.resize(last.len().max(target + 1), 0);
+            last[target] = load;
+            all.push((load, target));
+        }
     }
-    of.filter(move |(load, target)| last.get(target) == Some(load))
+    all.retain(|&(load, target)| last[target] == load);
+    all
 }
 
 impl Held {
@@ -184,41 +190,48 @@ impl Held {
     }
 }
 
-impl<const D: usize> Moved<D> {
+impl Moved {
+    /// There is memory for its positions at the points.
     fn evaluate(
         &mut self,
         interpolation: &Interpolation,
-        loads: &Loads<D>,
-        ([time, step], from): ([f64; 2], &[f64; D]),
+        position: Position<'_>,
+        ([time, step], positions): ([f64; 2], &mut [f64]),
     ) -> Result<(), StepFailure> {
-        let mut positions = [[0.0; D]; POINTS];
-        for (position, &share) in positions.iter_mut().zip(&interpolation.points) {
+        let dimension = positions.len() / POINTS;
+        for (found, &share) in positions
+            .chunks_exact_mut(dimension)
+            .zip(&interpolation.points)
+        {
             let at = time + share * step;
-            let found = loads.motions[self.motion]
-                .1
-                .position(at, from, share * step);
-            for axis in 0..D {
-                position[axis] = found[axis];
-                if !found[axis].is_finite() {
-                    let load = TimedLoad::Motion(self.node);
-                    return Err(StepFailure::of_load(load, axis, found[axis], at));
-                }
+            position(self, [at, share * step], found);
+            if let Some(axis) = found.iter().position(|value| !value.is_finite()) {
+                let load = TimedLoad::Motion(self.node);
+                return Err(StepFailure::of_load(load, axis, found[axis], at));
             }
         }
-        let (start, end) = (positions[0], positions[POINTS - 1]);
-        for stage in 0..STAGES {
-            for axis in 0..D {
+        for (index, (position, velocity)) in self
+            .positions
+            .iter_mut()
+            .zip(&mut self.velocities)
+            .enumerate()
+        {
+            let (stage, axis) = (index / dimension, index % dimension);
+            let start = positions[axis];
+            let (mut value, mut slope) = (0.0, 0.0);
+            for m in 1..POINTS {
                 // Differences do not lose digits to the distance from the origin.
-                let from_start = |m: usize| positions[m][axis] - start[axis];
-                let sum = |row: &[f64; POINTS]| {
-                    (1..POINTS).fold(0.0, |sum, m| sum + row[m] * from_start(m))
-                };
-                self.positions[stage][axis] = start[axis] + sum(&interpolation.values[stage]);
-                self.velocities[stage][axis] = sum(&interpolation.slopes[stage]) / step;
+                let from_start = positions[m * dimension + axis] - start;
+                value += interpolation.values[stage][m] * from_start;
+                slope += interpolation.slopes[stage][m] * from_start;
             }
+            *position = match stage {
+                0 => start,
+                _ if stage == STAGES - 1 => positions[(POINTS - 1) * dimension + axis],
+                _ => start + value,
+            };
+            *velocity = slope / step;
         }
-        self.positions[0] = start;
-        self.positions[STAGES - 1] = end;
         Ok(())
     }
 }

@@ -37,10 +37,30 @@ pub(super) fn errors<const N: usize, const P: usize>(past: &Past<N, P>) -> [[[f6
     ]
 }
 
-/// The variables at the end of a step of the size h, before it is closed.
-#[inline]
-pub(super) fn unclosed<const N: usize, const P: usize>(past: &Past<N, P>, h: f64) -> [[f64; N]; P] {
-    past.after(h, (&WEIGHTED_ROWS, &WEIGHTS))
+/// The same of one of so many variables, whose rates are in rows.
+pub(super) fn errors_of(rates: &[f64], variables: usize, index: usize) -> [f64; 2] {
+    [
+        combined(&ERROR_5, rates, variables, index),
+        combined(&ERROR_3, rates, variables, index),
+    ]
+}
+
+/// One of so many variables at the end of a step of the size h, before it is closed.
+pub(super) fn unclosed_of(
+    start: f64,
+    h: f64,
+    (rates, variables, index): (&[f64], usize, usize),
+) -> f64 {
+    start + h * combined(&WEIGHTS, rates, variables, index)
+}
+
+/// `Σ a k` for one of so many variables.
+fn combined(a: &[f64; WEIGHTED.len()], rates: &[f64], variables: usize, index: usize) -> f64 {
+    let mut sum = a[0] * rates[WEIGHTED_ROWS[0] * variables + index];
+    for term in 1..a.len() {
+        sum += a[term] * rates[WEIGHTED_ROWS[term] * variables + index];
+    }
+    sum
 }
 
 /// The same as [`combine`](Explicit::combine) for the internal variables.
@@ -163,8 +183,8 @@ impl<const D: usize> Explicit<D> {
         }
         if self.has_functions {
             let time = view.loads.inside([view.state.time.value, view.step], time);
-            self.loads
-                .evaluate_forces_at(view.loads, view.masses, time)?;
+            let loads = &mut self.accounts.loads;
+            loads.evaluate_forces_at(view.loads, view.masses, time)?;
         }
         self.apply_loads();
         Ok(())
@@ -174,7 +194,7 @@ impl<const D: usize> Explicit<D> {
     fn apply_loads(&mut self) {
         let masses = self.places[..self.accounts.components.masses].iter_mut();
         for (place, &node) in masses.zip(&self.accounts.components.nodes) {
-            place.rates[1] = self.loads.total_force(node);
+            place.rates[1] = self.accounts.loads.total_force(node);
         }
     }
 
@@ -187,7 +207,7 @@ impl<const D: usize> Explicit<D> {
         for group in &self.groups {
             group.rates(&mut self.places, &mut self.accounts.stage)?;
         }
-        self.evaluations += 1;
+        self.accounts.evaluations += 1;
         if self.is_driven
             && let Some(at) = weight
         {

@@ -1,6 +1,7 @@
 //! The elements of one model in an explicit scheme.
 
 use crate::element::conjugates::{Conjugates, OneSet, PointRule};
+use crate::element::ends::Ends;
 use crate::element::error::StateError;
 use crate::element::group::explicit::closed::Closed;
 use crate::element::group::explicit::point::ExplicitPoint;
@@ -49,17 +50,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitGroup<D> for Explici
         self.all.into_loose()
     }
 
-    fn join(
-        &mut self,
-        (component_of, first_temperature): (&[u32], usize),
-        place_of: &dyn Fn(u32, u32) -> u32,
-    ) {
-        let elements = self.all.elements();
-        for (place, point) in self.points.iter_mut().enumerate() {
-            let component = component_of[point.element.index()];
-            let places = elements.nodes(place).iter();
-            let places = places.map(|&node| place_of(component, node));
-            point.join(component, first_temperature, places);
+    fn join(&mut self, (component_of, places): (&[u32], &Ends), first_temperature: usize) {
+        for point in &mut self.points {
+            let element = point.element.index();
+            let places = places.of(element);
+            point.join((component_of[element], places), first_temperature);
         }
     }
 
