@@ -39,16 +39,6 @@ impl<T: Copy, const D: usize> Bivector<T, D> {
         &mut self.0[i][j]
     }
 
-    /// Calls a function with each component, in the order of [`planes`].
-    #[inline]
-    pub(crate) fn each(&self, mut visit: impl FnMut(T)) {
-        for i in 0..D {
-            for j in i + 1..D {
-                visit(self.0[i][j]);
-            }
-        }
-    }
-
     /// The bivector of functions of the components.
     #[inline]
     pub(crate) fn map<U: Copy>(&self, unused: U, mut of: impl FnMut(T) -> U) -> Bivector<U, D> {

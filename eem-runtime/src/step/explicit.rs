@@ -46,10 +46,11 @@ use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::scene::loads::Loads;
 use crate::step::control::{LeastScales, LoadRounding};
-use accounts::{Accounts, Outside};
+use accounts::Accounts;
 use bodies::BodiesIn;
 use components::Components;
 use memory::Momenta;
+use prescribed::Prescribed;
 
 pub(crate) use demand::Demand;
 pub(crate) use memory::SavedExplicit;
@@ -77,6 +78,14 @@ pub(crate) struct View<'a> {
     pub(crate) conduction: &'a Conduction,
     pub(crate) masses: &'a Masses,
     pub(crate) least: &'a LeastScales,
+}
+
+impl View<'_> {
+    /// The time at the end of the step, s.
+    #[inline]
+    fn end(&self) -> f64 {
+        self.state.time.value + self.step
+    }
 }
 
 /// The input of a step.
@@ -120,38 +129,38 @@ impl<const D: usize> Explicit<D> {
         let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads, false);
         let counts = [site.masses.len(), site.layout.thermal];
         let mut moved = Vec::with_capacity(site.loads.motions.len());
-        for &(node, _) in &site.loads.motions {
-            moved.push(node);
+        for (node, _) in &site.loads.motions {
+            moved.push(Some(node.index));
         }
-        let outside = Outside {
-            rounding: LoadRounding::new(site.loads, loads.slots.clone(), counts),
-            loads,
-            has_functions: site.loads.have_forces_of_time(),
-            moved,
-            temperatures: &site.loads.temperatures,
-        };
-        let momenta = vec![Momenta::none(); components.all.len()];
-        let places_of = (site.layout, site.conduction);
-        let accounts = Accounts::new((components, outside), places_of, [site.masses.len(), D]);
+        let prescribed = Prescribed::new([&moved, &loads.slots], &components, D);
+        let rounding = LoadRounding::new(site.loads, loads.slots.clone(), counts);
+        let accounts = Accounts::new(
+            (components, prescribed),
+            (loads, rounding, site.loads.have_forces_of_time()),
+            (site.layout, site.conduction),
+            [site.masses.len(), D],
+        );
         Self {
-            impulses: momenta[..accounts.load_sums.len()].to_vec(),
-            momenta,
+            momenta: vec![Momenta::none(); accounts.motions.len()],
+            impulses: vec![Momenta::none(); accounts.load_sums.len()],
             places,
             accounts,
             groups,
         }
     }
 
-    /// What the accounts may ask of the bodies.
-    fn bodies<'a>(
-        (groups, places): (&'a [Box<dyn ExplicitGroup<D>>], &'a [Place<D>]),
-        view: &ExplicitView<'a, D>,
-    ) -> BodiesIn<'a, D> {
-        BodiesIn {
+    /// The accounts, and what they may ask of the bodies.
+    fn parts<'a>(
+        &'a mut self,
+        view: &'a ExplicitView<'a, D>,
+    ) -> (&'a mut Accounts, BodiesIn<'a, D>) {
+        let (groups, places) = (&self.groups, &self.places);
+        let bodies = BodiesIn {
             places,
             groups,
-            loads: view.loads,
-        }
+            view,
+        };
+        (&mut self.accounts, bodies)
     }
 
     /// A group of elements.
@@ -165,7 +174,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Calls a function for each group of elements.
-    pub(crate) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<D>)) {
+    pub(crate) fn each_mut(&mut self, visit: &mut dyn FnMut(&mut dyn Elements<D>)) {
         for group in &mut self.groups {
             visit(group.elements_mut());
         }

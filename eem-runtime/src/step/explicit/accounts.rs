@@ -4,13 +4,11 @@ use core::mem;
 
 use super::components::Components;
 use super::memory::{Books, LoadSums, Motion, Scratch};
-use super::prescribed::{Held, Prescribed, held};
+use super::prescribed::Prescribed;
 use crate::element::conduction::Conduction;
 use crate::element::group::{Stage, Thermostat};
-use crate::element::handle::{Element, Node};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
-use crate::scene::loads::TemperatureCourse;
 use crate::step::control::LoadRounding;
 
 /// Internal variables, energies, entropies and targets of all components, and what acts on them.
@@ -24,8 +22,6 @@ pub(crate) struct Accounts {
     pub(super) components: Components,
     /// Whether each thermal slot has a path of heat or a dashpot.
     pub(super) produces: Vec<bool>,
-    /// The elements with thermostats, and the moved anchors.
-    pub(super) held: Vec<Held>,
     pub(super) prescribed: Prescribed,
     /// Whether loads, moved anchors, thermostats or dashpots that lose heat act, so that integrals of the step change targets.
     pub(super) is_driven: bool,
@@ -59,29 +55,16 @@ pub(crate) struct Accounts {
     pub(super) evaluations: u64,
 }
 
-/// What acts on a scene from outside.
-pub(super) struct Outside<'a> {
-    pub(super) loads: StepLoads,
-    pub(super) rounding: LoadRounding,
-    /// Whether forces are functions of time.
-    pub(super) has_functions: bool,
-    /// The anchors of all motions, and the courses of all prescribed temperatures.
-    pub(super) moved: Vec<Node>,
-    pub(super) temperatures: &'a [(Element, TemperatureCourse)],
-}
-
 impl Accounts {
     /// For a scene with this many nodes in a space of this dimension.
     pub(super) fn new(
-        (mut components, outside): (Components, Outside<'_>),
+        (mut components, prescribed): (Components, Prescribed),
+        (loads, rounding, has_functions): (StepLoads, LoadRounding, bool),
         (layout, conduction): (&Layout, &Conduction),
         [nodes, dimension]: [usize; 2],
     ) -> Self {
-        let loads = outside.loads;
-        let held = held(outside.temperatures, &loads.slots);
-        let prescribed = Prescribed::new(&outside.moved, &components, dimension);
         let mut thermostats = Vec::new();
-        for held in &held {
+        for held in &prescribed.held {
             thermostats.resize(layout.thermal, Thermostat::new(false));
             thermostats[held.slot] = Thermostat::new(true);
         }
@@ -99,13 +82,12 @@ impl Accounts {
         Self {
             dimension,
             produces: produces(&components, layout),
-            held,
             prescribed,
             is_driven: has_loads || loses || stage.has_thermostats,
-            has_functions: outside.has_functions,
+            has_functions,
             start_loads: loads.clone(),
             loads,
-            rounding: outside.rounding,
+            rounding,
             load_sums: vec![LoadSums::default(); if has_loads { count } else { 0 }],
             kept_places: if moves { places } else { components.masses },
             stage,

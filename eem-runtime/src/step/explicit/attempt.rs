@@ -1,81 +1,16 @@
 //! One attempt at a step, which changes nothing until it is accepted.
 
 use super::accounts::Accounts;
-use super::bodies::Bodies;
 use super::demand::Demand;
 use super::error::Measure;
 use super::tableau::STAGES;
-use super::{Explicit, ExplicitView, View};
+use super::{Explicit, ExplicitView};
 use crate::element::group::points;
 use crate::element::state::State;
-use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
 use crate::step::outcome::Attempt;
 
 impl Accounts {
-    /// Finds what is prescribed at the stages of a step.
-    fn evaluate_supports<const D: usize>(
-        &mut self,
-        view: &View<'_>,
-        loads: &Loads<D>,
-    ) -> Result<(), StepFailure> {
-        let span = [view.state.time.value, view.step];
-        let old = points::<D>(view.state.positions.values());
-        self.prescribed.evaluate(
-            &|moved, [time, elapsed], found| {
-                let course = &loads.motions[moved.motion].1;
-                let at = course.position(time, &old[moved.node.index], elapsed);
-                found.copy_from_slice(at.as_slice());
-            },
-            span,
-        )?;
-        for held in &mut self.held {
-            let from = view.state.temperatures[held.slot];
-            held.evaluate(&loads.temperatures, span, from)?;
-        }
-        Ok(())
-    }
-
-    /// The largest defect of all components before closing.
-    #[inline]
-    fn largest_correction(&self) -> f64 {
-        let mut largest = 0.0_f64;
-        for progress in &self.scratch.progress {
-            if largest.abs() < progress.correction.abs() {
-                largest = progress.correction;
-            }
-        }
-        largest
-    }
-
-    /// The same without those beyond a limit that are rounding; an error if one is left.
-    #[cold]
-    fn correction_beyond_rounding(
-        &mut self,
-        bodies: &dyn Bodies,
-        view: &View<'_>,
-        limit: f64,
-    ) -> Result<f64, StepFailure> {
-        let mut largest = 0.0_f64;
-        for index in 0..self.scratch.progress.len() {
-            let progress = &self.scratch.progress[index];
-            let (own, scale) = (progress.correction, progress.scale);
-            let is_rounding = !(own.abs() <= limit)
-                && (own * scale).abs() <= self.explained(bodies, index, scale, view);
-            if !is_rounding && largest.abs() < own.abs() {
-                largest = own;
-            }
-        }
-        if largest.abs() <= limit {
-            return Ok(largest);
-        }
-        Err(StepFailure::Correction {
-            correction: largest.abs(),
-            limit,
-            time: view.state.time.value + view.step,
-        })
-    }
-
     /// Writes the closed internal variables.
     #[inline]
     fn store(&self, next: &mut State) {
@@ -85,7 +20,7 @@ impl Accounts {
         for (slot, theta) in next.temperatures.iter_mut().enumerate() {
             *theta = self.stage.theta(slot);
         }
-        for held in &self.held {
+        for held in &self.prescribed.held {
             let balance = &self.scratch.held[held.slot];
             next.book_thermostat(balance.heat, balance.given);
         }
@@ -121,14 +56,10 @@ impl<const D: usize> Explicit<D> {
             // As before the attempt.
             self.is_ready = self.was_ready;
         }
-        attempt.map_err(|failure| self.explain(failure, view))
-    }
-
-    /// The reason behind a failure, if the step is too long to be stable.
-    #[cold]
-    fn explain(&mut self, failure: StepFailure, view: &ExplicitView<'_, D>) -> StepFailure {
-        let bodies = Self::bodies((&self.groups, &self.places), view);
-        self.accounts.explain(&bodies, failure, view)
+        attempt.map_err(|failure| {
+            let (accounts, bodies) = self.parts(view);
+            accounts.explain(&bodies, failure)
+        })
     }
 
     #[inline]
@@ -139,7 +70,8 @@ impl<const D: usize> Explicit<D> {
         next: &mut State,
     ) -> Result<Attempt, StepFailure> {
         if self.is_driven {
-            self.evaluate_supports(view, view.loads)?;
+            let (accounts, bodies) = self.parts(view);
+            accounts.prescribed.evaluate(&bodies)?;
         }
         let scales = self.approach(view, next)?;
         let measure = match &demand {
@@ -161,8 +93,8 @@ impl<const D: usize> Explicit<D> {
         self.book(view, next);
         self.close(view, (demand, scales), next)?;
         if let Some(by) = &measure {
-            let bodies = Self::bodies((&self.groups, &self.places), view);
-            let moved = self.accounts.moved(&bodies, by);
+            let (accounts, bodies) = self.parts(view);
+            let moved = accounts.moved(&bodies, by);
             if !(moved <= 1.0) {
                 return Ok(Attempt::rejected(moved));
             }
@@ -170,12 +102,11 @@ impl<const D: usize> Explicit<D> {
         if next.meters.are_on {
             self.accounts.meter(view.step, next);
         }
-        let (mut correction, limit) = (self.largest_correction(), demand.largest_correction());
-        if !(correction.abs() <= limit) {
-            let bodies = Self::bodies((&self.groups, &self.places), view);
-            correction = (self.accounts).correction_beyond_rounding(&bodies, view, limit)?;
+        let correction = self.correction(view, demand.largest_correction())?;
+        if self.loads.has_force() {
+            let (accounts, bodies) = self.parts(view);
+            accounts.book_constant_loads(&bodies, next);
         }
-        self.book_constant_loads(view, next);
         self.finish()?;
         self.store(next);
         self.books.largest_momentum = scales.momentum;
@@ -183,17 +114,43 @@ impl<const D: usize> Explicit<D> {
         Ok(Attempt { error, outcome })
     }
 
+    /// The largest defect of all components before closing; an error unless it is small, or rounding.
+    #[inline]
+    fn correction(&mut self, view: &ExplicitView<'_, D>, limit: f64) -> Result<f64, StepFailure> {
+        let mut largest = 0.0_f64;
+        for index in 0..self.scratch.progress.len() {
+            let progress = &self.scratch.progress[index];
+            let (own, scale) = (progress.correction, progress.scale);
+            let is_rounding = !(own.abs() <= limit) && {
+                let (accounts, bodies) = self.parts(view);
+                (own * scale).abs() <= accounts.explained(&bodies, index, scale)
+            };
+            if !is_rounding && largest.abs() < own.abs() {
+                largest = own;
+            }
+        }
+        if largest.abs() <= limit {
+            return Ok(largest);
+        }
+        Err(StepFailure::Correction {
+            correction: largest.abs(),
+            limit,
+            time: view.end(),
+        })
+    }
+
     /// Writes the closed state.
     #[inline]
     fn store(&mut self, next: &mut State) {
         let masses = &self.places[..self.components.masses];
-        for (place, &node) in masses.iter().zip(&self.components.nodes) {
-            next.positions.set_point(node, place.q());
-            next.momenta.set_point(node, place.p());
+        let nodes = &self.components.nodes[..masses.len()];
+        for at in 0..masses.len() {
+            next.positions.set_point(nodes[at], masses[at].q());
+            next.momenta.set_point(nodes[at], masses[at].p());
         }
         for moved in &self.prescribed.moved {
             let end = &points::<D>(&moved.positions)[STAGES - 1];
-            next.positions.set_point(moved.node.index, end);
+            next.positions.set_point(moved.node, end);
         }
         self.accounts.store(next);
     }

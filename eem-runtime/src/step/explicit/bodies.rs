@@ -1,9 +1,9 @@
 //! The bodies of a scene of any dimension, for what is not worth being compiled for each.
 
-use super::View;
-use crate::element::group::{ExplicitGroup, Place, Stiffness};
-use crate::element::state::State;
-use crate::scene::loads::Loads;
+use super::{ExplicitView, View};
+use crate::element::group::{ExplicitGroup, Place, Stiffness, points};
+use crate::element::handle::{Element, Node};
+use crate::scene::loads::TemperatureCourse;
 use crate::step::control::LoadRounding;
 
 /// A function of the stiffnesses of an element.
@@ -24,18 +24,29 @@ pub(super) struct Seen<'a> {
     pub(super) per_mass: f64,
 }
 
-/// Masses, anchors, elements and loads.
+/// Masses, anchors, elements and loads in a step.
 pub(super) trait Bodies {
+    /// The start of the step.
+    fn view(&self) -> &View<'_>;
+
     fn at(&self, place: usize) -> Seen<'_>;
 
     /// Writes the constant forces on places and those of elements in some components, and `γ̇` and `g γ̇` of their dashpots.
     fn find_forces(&self, components: &[bool], forces: &mut [f64], creep: &mut [[f64; 2]]);
 
     /// Calls a function for each element.
-    fn see_stiffnesses(&self, state: &State, see: See<'_>);
+    fn see_stiffnesses(&self, see: See<'_>);
 
-    /// Finds the rounding of the loads of a step.
-    fn find_rounding(&self, rounding: &mut LoadRounding, view: &View<'_>);
+    /// Finds the rounding of the loads.
+    fn find_rounding(&self, rounding: &mut LoadRounding);
+
+    /// Acceleration of free fall, m/s².
+    fn gravity(&self) -> &[f64];
+
+    /// Writes the position of a moved anchor at a time, s, and so much after the start of the step, m. Returns the anchor.
+    fn find_position(&self, motion: usize, times: [f64; 2], position: &mut [f64]) -> Node;
+
+    fn temperatures(&self) -> &[(Element, TemperatureCourse)];
 }
 
 /// The same in a dimension.
@@ -43,10 +54,14 @@ pub(super) trait Bodies {
 pub(super) struct BodiesIn<'a, const D: usize> {
     pub(super) places: &'a [Place<D>],
     pub(super) groups: &'a [Box<dyn ExplicitGroup<D>>],
-    pub(super) loads: &'a Loads<D>,
+    pub(super) view: &'a ExplicitView<'a, D>,
 }
 
 impl<const D: usize> Bodies for BodiesIn<'_, D> {
+    fn view(&self) -> &View<'_> {
+        self.view
+    }
+
     fn at(&self, place: usize) -> Seen<'_> {
         let place = &self.places[place];
         let [q, p] = &place.past.start;
@@ -71,13 +86,37 @@ impl<const D: usize> Bodies for BodiesIn<'_, D> {
         }
     }
 
-    fn see_stiffnesses(&self, state: &State, see: See<'_>) {
+    fn see_stiffnesses(&self, see: See<'_>) {
         for group in self.groups {
-            group.elements().stiffness(state, see);
+            group.elements().stiffness(self.view.state, see);
         }
     }
 
-    fn find_rounding(&self, rounding: &mut LoadRounding, view: &View<'_>) {
-        rounding.find(self.loads, view.least, [view.state.time.value, view.step]);
+    fn find_rounding(&self, rounding: &mut LoadRounding) {
+        let View {
+            step, state, least, ..
+        } = self.view.view;
+        rounding.find(self.view.loads, least, [state.time.value, step]);
+    }
+
+    fn gravity(&self) -> &[f64] {
+        self.view.loads.gravity.as_slice()
+    }
+
+    fn find_position(
+        &self,
+        motion: usize,
+        [time, elapsed]: [f64; 2],
+        position: &mut [f64],
+    ) -> Node {
+        let (node, course) = &self.view.loads.motions[motion];
+        let old = points::<D>(self.view.state.positions.values());
+        let found = course.position(time, &old[node.index], elapsed);
+        position.copy_from_slice(found.as_slice());
+        *node
+    }
+
+    fn temperatures(&self) -> &[(Element, TemperatureCourse)] {
+        &self.view.loads.temperatures
     }
 }

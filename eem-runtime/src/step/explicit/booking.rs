@@ -1,8 +1,10 @@
 //! Entropies and targets at the end of a step, from its integrals.
 
 use super::accounts::Accounts;
+use super::bodies::Bodies;
 use super::components::Support;
 use super::guard::{PathRates, guarded, mean_drop};
+use super::memory::momenta_of;
 use super::thermostats::shift_weights;
 use super::{Explicit, ExplicitView};
 use crate::algebra::{add, difference, dot, scaled};
@@ -129,6 +131,19 @@ impl Accounts {
             }
         }
     }
+
+    /// Adds the work `F·Δq` of constant loads, of which the closing has taken the potential: all of a constant force but the weight.
+    pub(super) fn book_constant_loads(&self, bodies: &dyn Bodies, next: &mut State) {
+        for at in 0..self.components.masses {
+            let place = bodies.at(at);
+            for (axis, gravity) in bodies.gravity().iter().enumerate() {
+                let load = place.force[axis] - place.mass * gravity;
+                if load != 0.0 {
+                    next.work.add(load * (place.q[axis] - place.start[0][axis]));
+                }
+            }
+        }
+    }
 }
 
 impl<const D: usize> Explicit<D> {
@@ -156,7 +171,8 @@ impl<const D: usize> Explicit<D> {
             let sums = &mut accounts.load_sums[components.of_place[anchor]];
             sums.work -= dot(&place.past.rates[0][1], &way) / h;
         }
-        for (index, impulses) in self.impulses.iter().enumerate() {
+        for index in 0..self.impulses.len() {
+            let impulses = &self.impulses[index];
             let component = &components.all[index];
             let masses = &self.places[component.masses.clone()];
             let (sums, progress) = (
@@ -182,34 +198,13 @@ impl<const D: usize> Explicit<D> {
             }
             accounts.books.targets[index].energy.add(work);
             next.work.add(work);
-            let mut targets = accounts.books.momenta_of_mut(index, D).iter_mut();
-            for (axis, target) in targets.by_ref().take(D).enumerate() {
-                for place in masses {
-                    target.add(h * place.force[axis]);
-                }
-                target.add(h * impulses.linear[axis]);
-            }
-            impulses.angular.each(|torque| {
-                if let Some(target) = targets.next() {
-                    target.add(h * torque);
-                }
-            });
-        }
-    }
-
-    /// Adds the work `F·Δq` of constant loads, of which the closing has taken the potential: all of a constant force but the weight.
-    pub(super) fn book_constant_loads(&self, view: &ExplicitView<'_, D>, next: &mut State) {
-        if !self.loads.has_force() {
-            return;
-        }
-        for place in &self.places[..self.components.masses] {
-            let way = difference(place.q(), &place.past.start[0]);
-            for (axis, way) in way.iter().enumerate() {
-                let load = place.force[axis] - place.mass * view.loads.gravity[axis];
-                if load != 0.0 {
-                    next.work.add(load * way);
+            let targets = &mut accounts.books.momenta[momenta_of(index, D)];
+            for place in masses {
+                for (target, force) in targets.iter_mut().zip(&place.force) {
+                    target.add(h * force);
                 }
             }
+            impulses.each(&mut |at, impulse| targets[at].add(h * impulse));
         }
     }
 }

@@ -22,6 +22,7 @@ mod rigid;
 mod rounding;
 mod shape;
 
+use super::accounts::Accounts;
 use super::demand::{Demand, Scales};
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
@@ -48,6 +49,24 @@ enum Status {
     Failed,
 }
 
+impl Accounts {
+    /// Corrects the energy of open components by heat; returns whether forces are needed.
+    fn balance_all(&mut self, demand: Demand, next: &mut State) -> bool {
+        let mut needs_forces = false;
+        for index in 0..self.components.all.len() {
+            let status = if self.scratch.open[index] {
+                self.balance(index, demand, next)
+            } else {
+                Status::Closed
+            };
+            self.scratch.open[index] = status == Status::Changed;
+            self.scratch.needs_forces[index] = status == Status::NeedsForces;
+            needs_forces |= status == Status::NeedsForces;
+        }
+        needs_forces
+    }
+}
+
 impl<const D: usize> Explicit<D> {
     /// Closes all components.
     #[inline]
@@ -65,22 +84,13 @@ impl<const D: usize> Explicit<D> {
         self.share_productions();
         let mut has_looked = false;
         loop {
-            self.scratch.needs_forces.fill(false);
-            for index in 0..self.components.all.len() {
-                if !self.scratch.open[index] {
-                    continue;
-                }
-                let status = self.balance(index, demand, next);
-                self.scratch.open[index] = status == Status::Changed;
-                self.scratch.needs_forces[index] = status == Status::NeedsForces;
-            }
-            if self.scratch.needs_forces.contains(&true) {
-                let bodies = Self::bodies((&self.groups, &self.places), view);
+            if self.balance_all(demand, next) {
+                let (accounts, bodies) = self.parts(view);
                 if !has_looked {
-                    self.accounts.expect_stable_dashpots(&bodies, view)?;
+                    accounts.expect_stable_dashpots(&bodies)?;
                     has_looked = true;
                 }
-                self.accounts.find_forces(&bodies);
+                accounts.find_forces(&bodies);
                 for index in 0..self.components.all.len() {
                     if self.scratch.needs_forces[index] {
                         let status = self.reshape(index, (view, demand), next);

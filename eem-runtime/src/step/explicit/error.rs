@@ -3,7 +3,8 @@
 use super::accounts::Accounts;
 use super::bodies::{Bodies, Seen};
 use super::demand::Scales;
-use super::stages::{errors, errors_of, unclosed_of};
+use super::stages::{combined, errors};
+use super::tableau::{ERROR_3, ERROR_5, WEIGHTS};
 use super::{Explicit, ExplicitView, View};
 use crate::algebra::{dot, length, norm, vector};
 use crate::element::state::State;
@@ -74,7 +75,8 @@ impl Accounts {
             let impulse = self.rounding_of(view, &place, node);
             let moved = own.mobility(view.step) * impulse;
             for index in 0..2 * d {
-                let errors = errors_of(place.rates, 2 * d, index);
+                let row = (place.rates, 2 * d, index);
+                let errors = [combined(&ERROR_5, row), combined(&ERROR_3, row)];
                 if index < d {
                     let unknown = Unknown::Position(node * d + index);
                     see(unknown, errors, rounded(position, moved));
@@ -90,8 +92,9 @@ impl Accounts {
             stretch = rounded(per(by.stretch()), rounding_of_stretch(by.farthest()));
         }
         for index in 0..2 * self.stage.inner_past.len() {
-            let past = &self.stage.inner_past[index / 2];
-            let errors = errors_of(past.rates.as_flattened().as_flattened(), 2, index % 2);
+            let rates = self.stage.inner_past[index / 2].rates.as_flattened();
+            let row = (rates.as_flattened(), 2, index % 2);
+            let errors = [combined(&ERROR_5, row), combined(&ERROR_3, row)];
             if index < first {
                 see(Unknown::Viscous(index), errors, stretch);
             } else {
@@ -103,7 +106,21 @@ impl Accounts {
         }
     }
 
-    /// The [estimate](Explicit::estimate) without what rounding explains.
+    /// The [estimate](Explicit::estimate) of this error without what rounding explains, if that matters.
+    fn judge(&mut self, bodies: &dyn Bodies, by: &Measure<'_>, error: f64) -> f64 {
+        if !Scheme::EemExplicit.accuracy().holds_back(error) {
+            return error;
+        }
+        self.find_rounding(bodies);
+        let may_explain =
+            !self.rounding.is_none() || ROUNDING_SHARE * error < self.most_rounding(by);
+        if may_explain {
+            self.estimate_beyond_rounding(bodies, by)
+        } else {
+            error
+        }
+    }
+
     #[cold]
     fn estimate_beyond_rounding(&self, bodies: &dyn Bodies, by: &Measure<'_>) -> f64 {
         let Measure {
@@ -154,9 +171,9 @@ impl Accounts {
     }
 
     /// Finds the rounding of the loads of a step.
-    pub(super) fn find_rounding(&mut self, bodies: &dyn Bodies, view: &View<'_>) {
+    pub(super) fn find_rounding(&mut self, bodies: &dyn Bodies) {
         if !self.rounding.is_none() {
-            bodies.find_rounding(&mut self.rounding, view);
+            bodies.find_rounding(&mut self.rounding);
         }
     }
 
@@ -182,7 +199,7 @@ impl Accounts {
             }
             let change = self.change_by_closing(bodies, index, by);
             let (defect, scale) = (progress.correction * progress.scale, progress.scale);
-            if change > 1.0 && !(defect.abs() <= self.explained(bodies, index, scale, by.view)) {
+            if change > 1.0 && !(defect.abs() <= self.explained(bodies, index, scale)) {
                 largest = Scalar::maximum(largest, change);
             }
         }
@@ -205,25 +222,23 @@ impl Accounts {
             let rounding = self.rounding_of(view, &place, node);
             let scale = view.least.at(node).scale(by.scales.momentum, by.step());
             let momentum = Scalar::maximum(by.momentum(scale), rounding);
-            let mut sizes = [0.0; 2];
-            for (part, (now, start)) in [place.q, place.p].into_iter().zip(place.start).enumerate()
+            for (part, (now, allowed)) in [(place.q, position), (place.p, momentum)]
+                .into_iter()
+                .enumerate()
             {
-                for axis in 0..d {
-                    let before = unclosed_of(
-                        start[axis],
-                        view.step,
-                        (place.rates, 2 * d, part * d + axis),
-                    );
-                    sizes[part] = Scalar::hypot(sizes[part], now[axis] - before);
+                let mut size = 0.0;
+                for (axis, now) in now.iter().enumerate() {
+                    let change = combined(&WEIGHTS, (place.rates, 2 * d, part * d + axis));
+                    let before = place.start[part][axis] + view.step * change;
+                    size = Scalar::hypot(size, now - before);
                 }
+                see(size, allowed);
             }
-            see(sizes[0], position);
-            see(sizes[1], momentum);
         }
         let change = |at: usize| {
             let rates = self.stage.inner_past[at / 2].rates.as_flattened();
-            let start = self.stage.inner_start(at);
-            let before = unclosed_of(start, view.step, (rates.as_flattened(), 2, at % 2));
+            let change = combined(&WEIGHTS, (rates.as_flattened(), 2, at % 2));
+            let before = self.stage.inner_start(at) + view.step * change;
             (self.stage.inner[at] - before).abs()
         };
         for dashpot in self.components.dashpots_of(index) {
@@ -239,10 +254,18 @@ impl Accounts {
         largest
     }
 
-    /// The magnitudes of the positions at both ends and of the momenta at the end of a step, where squares under- or overflow; an error
-    /// unless all are finite.
+    /// The magnitudes of positions and momenta, given those of the positions at both ends and of the momenta at the end of a step.
+    #[inline]
+    fn scales(&self, [start, end, momentum]: [f64; 3]) -> Scales {
+        Scales {
+            position: Scalar::maximum(start, end),
+            momentum: Scalar::maximum(momentum, self.books.largest_momentum),
+        }
+    }
+
+    /// The same where squares under- or overflow; an error unless all are finite.
     #[cold]
-    fn scaled(&self, bodies: &dyn Bodies) -> Result<[f64; 3], StepFailure> {
+    fn scaled(&self, bodies: &dyn Bodies) -> Result<Scales, StepFailure> {
         let (masses, d) = (self.components.masses, self.dimension);
         for at in 0..masses {
             let place = bodies.at(at);
@@ -257,12 +280,12 @@ impl Accounts {
                 }
             }
         }
-        Ok(vector(|part| {
+        Ok(self.scales(vector(|part| {
             norm((0..masses * d).map(|at| {
                 let place = bodies.at(at / d);
                 [place.start[0], place.q, place.p][part][at % d]
             }))
-        }))
+        })))
     }
 }
 
@@ -275,7 +298,7 @@ impl<const D: usize> Explicit<D> {
     ) -> Result<Scales, StepFailure> {
         self.begin(view, next)?;
         self.go_through_stages(view)?;
-        let time = view.state.time.value + view.step;
+        let time = view.end();
         if !time.is_finite() {
             let value = time;
             return Err(StepFailure::Time { value });
@@ -287,17 +310,14 @@ impl<const D: usize> Explicit<D> {
                 *square += dot(part, part);
             }
         }
-        let mut sizes = vector(|part| Scalar::sqrt(squares[part]));
-        let is_normal = |sum: &f64| *sum > f64::MIN_POSITIVE && *sum <= f64::MAX;
-        if !squares.iter().all(is_normal) {
-            let bodies = Self::bodies((&self.groups, &self.places), view);
-            sizes = self.accounts.scaled(&bodies)?;
+        for sum in squares {
+            let is_normal = sum > f64::MIN_POSITIVE && sum <= f64::MAX;
+            if !is_normal {
+                let (accounts, bodies) = self.parts(view);
+                return accounts.scaled(&bodies);
+            }
         }
-        let [start, end, momentum] = sizes;
-        Ok(Scales {
-            position: Scalar::maximum(start, end),
-            momentum: Scalar::maximum(momentum, self.books.largest_momentum),
-        })
+        Ok(self.scales(squares.map(Scalar::sqrt)))
     }
 
     /// The error of the step in units of the tolerance,
@@ -315,12 +335,12 @@ impl<const D: usize> Explicit<D> {
         let position = per(by.position());
         let of_all = per(by.momentum(all));
         let are_alike = least.most().scale(all, step) <= all;
-        let masses = &self.places[..self.components.masses];
-        for (place, &node) in masses.iter().zip(&self.components.nodes) {
-            let [fifth, third] = errors(&place.past);
+        for at in 0..self.components.masses {
+            let [fifth, third] = errors(&self.places[at].past);
             let momentum = if are_alike {
                 of_all
             } else {
+                let node = self.components.nodes[at];
                 per(by.momentum(least.at(node).scale(all, step)))
             };
             for (part, per_scale) in [position, momentum].into_iter().enumerate() {
@@ -331,19 +351,8 @@ impl<const D: usize> Explicit<D> {
             }
         }
         self.accounts.add_squares(by, &mut sums);
-        let error = estimate_of(sums);
-        if !Scheme::EemExplicit.accuracy().holds_back(error) {
-            return error;
-        }
-        let bodies = Self::bodies((&self.groups, &self.places), view);
-        self.accounts.find_rounding(&bodies, view);
-        let may_explain =
-            !self.rounding.is_none() || ROUNDING_SHARE * error < self.accounts.most_rounding(by);
-        if may_explain {
-            self.accounts.estimate_beyond_rounding(&bodies, by)
-        } else {
-            error
-        }
+        let (accounts, bodies) = self.parts(view);
+        accounts.judge(&bodies, by, estimate_of(sums))
     }
 
     /// The unknown with the largest error in a step, with its error and what the tolerance allows.
@@ -364,14 +373,14 @@ impl<const D: usize> Explicit<D> {
             scales: tried?,
             dimension: D,
         };
-        let bodies = Self::bodies((&self.groups, &self.places), view);
-        self.accounts.find_rounding(&bodies, view);
+        let (accounts, bodies) = self.parts(view);
+        accounts.find_rounding(&bodies);
         let mut worst = None;
         let mut see = |unknown, [fifth, _]: [f64; 2], [per_scale, rounding]: [f64; 2]| {
             let allowed = per_scale.recip() + rounding;
             see_worst(&mut worst, unknown, [(view.step * fifth).abs(), allowed]);
         };
-        self.accounts.each_error(&bodies, &by, &mut see);
+        accounts.each_error(&bodies, &by, &mut see);
         Ok(worst)
     }
 }

@@ -1,5 +1,7 @@
 //! Memory of an explicit scheme: targets and sums that it keeps from step to step, and the workspace of a closing.
 
+use core::ops::Range;
+
 use crate::algebra::bivector::Bivector;
 use crate::algebra::{add, dot, size};
 use crate::element::group::{Caloric, ComponentEnergy, UnkeptEntropy};
@@ -63,7 +65,7 @@ impl Books {
         let count = components.all.len();
         Self {
             targets: vec![Target::none(); count],
-            momenta: vec![Sum::new(0.0); count * momenta(dimension)],
+            momenta: vec![Sum::new(0.0); momenta_of(count, dimension).start],
             shares: vec![Sum::new(0.0); components.shares.len()],
             largest_momentum: 0.0,
             residue: 0.0,
@@ -80,19 +82,6 @@ impl Books {
         self.terms = None;
     }
 
-    /// The targets of the momenta of a component.
-    #[inline]
-    pub(super) fn momenta_of(&self, index: usize, dimension: usize) -> &[Sum] {
-        let count = momenta(dimension);
-        &self.momenta[index * count..][..count]
-    }
-
-    #[inline]
-    pub(super) fn momenta_of_mut(&mut self, index: usize, dimension: usize) -> &mut [Sum] {
-        let count = momenta(dimension);
-        &mut self.momenta[index * count..][..count]
-    }
-
     /// Copies the values of `other`, of the same scene; targets only where steps change them.
     #[inline]
     pub(super) fn copy_from(&mut self, other: &Self, change_targets: bool) {
@@ -107,10 +96,11 @@ impl Books {
     }
 }
 
-/// The number of momenta of a component.
+/// The indices of the targets of the momenta of a component.
 #[inline]
-pub(super) const fn momenta(dimension: usize) -> usize {
-    dimension * (dimension + 1) / 2
+pub(super) const fn momenta_of(index: usize, dimension: usize) -> Range<usize> {
+    let count = dimension * (dimension + 1) / 2;
+    index * count..index * count + count
 }
 
 /// Targets, the entropies that reservoirs have received from each component, and the rates of the present state, bit for
@@ -175,7 +165,7 @@ pub(super) struct Progress {
     pub(super) has_heated: bool,
     /// The defect of the energy, J.
     pub(super) defect: f64,
-    /// [`defect_of`](super::Explicit::defect_of), while nothing has changed since.
+    /// [`defect_of`](super::accounts::Accounts::defect_of), while nothing has changed since.
     pub(super) present: Option<[f64; 2]>,
     /// The magnitude of the terms of the energy where the closing began, with what was carried; zero before, J.
     pub(super) scale: f64,
@@ -303,6 +293,30 @@ impl<const D: usize> Momenta<D> {
             linear: [0.0; D],
             angular: Bivector::zero(),
         }
+    }
+
+    /// Replaces each component by a function of its index and of its value: those of L, then, plane by plane, those of J.
+    #[inline]
+    pub(super) fn change(&mut self, mut of: impl FnMut(usize, f64) -> f64) {
+        for axis in 0..D {
+            self.linear[axis] = of(axis, self.linear[axis]);
+        }
+        let mut index = D;
+        for i in 0..D {
+            for j in i + 1..D {
+                let own = self.angular.at_mut([i, j]);
+                *own = of(index, *own);
+                index += 1;
+            }
+        }
+    }
+
+    /// Calls a function with the index and the value of each component.
+    pub(super) fn each(mut self, visit: &mut dyn FnMut(usize, f64)) {
+        self.change(|at, own| {
+            visit(at, own);
+            own
+        });
     }
 
     /// Adds a momentum at the end of an arm.

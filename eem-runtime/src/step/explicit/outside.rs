@@ -13,7 +13,7 @@ use crate::element::loads::StepLoads;
 impl<const D: usize> Explicit<D> {
     /// Sets moved anchors and thermostats to their values at a stage.
     pub(super) fn move_to(&mut self, stage: usize) {
-        for held in &self.accounts.held {
+        for held in &self.accounts.prescribed.held {
             *self.accounts.stage.theta_mut(held.slot) = held.temperatures[stage];
         }
         for moved in &self.accounts.prescribed.moved {

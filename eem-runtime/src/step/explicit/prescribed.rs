@@ -7,9 +7,9 @@
 use core::f64::consts::PI;
 
 use crate::algebra::vector;
-use crate::element::handle::{Element, Node};
-use crate::scene::loads::TemperatureCourse;
 use crate::step::error::StepFailure;
+use crate::step::explicit::View;
+use crate::step::explicit::bodies::Bodies;
 use crate::step::explicit::components::Components;
 use crate::step::explicit::tableau::{STAGES, TIMES};
 use crate::step::timed::TimedLoad;
@@ -59,11 +59,11 @@ impl Interpolation {
 /// An anchor that is moved.
 #[derive(Clone, Debug)]
 pub(super) struct Moved {
-    pub(super) node: Node,
+    pub(super) node: usize,
     /// Its places in the stage vector.
     pub(super) places: Vec<usize>,
     /// The index of its motion in the scene.
-    pub(super) motion: usize,
+    motion: usize,
     /// At the stages, a vector each, m and m/s.
     pub(super) positions: Vec<f64>,
     pub(super) velocities: Vec<f64>,
@@ -72,7 +72,6 @@ pub(super) struct Moved {
 /// An element with a thermostat.
 #[derive(Clone, Debug)]
 pub(super) struct Held {
-    element: Element,
     pub(super) slot: usize,
     /// The index of its temperature in the scene.
     temperature: usize,
@@ -80,47 +79,30 @@ pub(super) struct Held {
     pub(super) temperatures: [f64; STAGES],
 }
 
-/// The elements with thermostats, given the thermal slots of prescribed temperatures.
-pub(super) fn held(courses: &[(Element, TemperatureCourse)], slots: &[Option<usize>]) -> Vec<Held> {
-    let mut all = Vec::new();
-    for (temperature, slot) in last_of_each(slots) {
-        all.push(Held {
-            element: courses[temperature].0,
-            slot,
-            temperature,
-            temperatures: [1.0; STAGES],
-        });
-    }
-    all
-}
-
-/// All anchors that are moved in a scene.
+/// All anchors that are moved in a scene, and all elements with thermostats.
 #[derive(Clone, Debug)]
 pub(super) struct Prescribed {
     /// `None` if no anchor is moved.
     interpolation: Option<Interpolation>,
     pub(super) moved: Vec<Moved>,
-    /// The positions at the points, m.
+    pub(super) held: Vec<Held>,
+    /// The positions of an anchor at the points, m.
     positions: Vec<f64>,
 }
 
-/// A function that writes the position of an anchor, m, at a time, s, and so much after the start of the step.
-type Position<'a> = &'a dyn Fn(&Moved, [f64; 2], &mut [f64]);
-
 impl Prescribed {
-    /// For the motions of these nodes.
-    pub(super) fn new(motions: &[Node], components: &Components, dimension: usize) -> Self {
-        let mut nodes = Vec::with_capacity(motions.len());
-        for node in motions {
-            nodes.push(Some(node.index));
-        }
-        let mut moved = Vec::new();
-        let mut at_node = Vec::new();
-        for (motion, node) in last_of_each(&nodes) {
+    /// For motions of these nodes, and temperatures of these thermal slots.
+    pub(super) fn new(
+        [nodes, slots]: [&[Option<usize>]; 2],
+        components: &Components,
+        dimension: usize,
+    ) -> Self {
+        let (mut moved, mut at_node) = (Vec::new(), Vec::new());
+        for (motion, node) in last_of_each(nodes) {
             at_node.resize(at_node.len().max(node + 1), None);
             at_node[node] = Some(moved.len());
             moved.push(Moved {
-                node: motions[motion],
+                node,
                 places: Vec::new(),
                 motion,
                 positions: vec![0.0; STAGES * dimension],
@@ -132,23 +114,31 @@ impl Prescribed {
                 moved[index].places.push(place);
             }
         }
+        let mut held = Vec::new();
+        for (temperature, slot) in last_of_each(slots) {
+            held.push(Held {
+                slot,
+                temperature,
+                temperatures: [1.0; STAGES],
+            });
+        }
         Self {
             interpolation: (!moved.is_empty()).then(Interpolation::new),
             moved,
+            held,
             positions: vec![0.0; POINTS * dimension],
         }
     }
 
-    /// Evaluates all motions at the stages of a step of size `step` that begins at `time`.
-    pub(super) fn evaluate(
-        &mut self,
-        position: Position<'_>,
-        span: [f64; 2],
-    ) -> Result<(), StepFailure> {
+    /// Evaluates all of them at the stages of a step.
+    pub(super) fn evaluate(&mut self, bodies: &dyn Bodies) -> Result<(), StepFailure> {
         if let Some(interpolation) = &self.interpolation {
             for moved in &mut self.moved {
-                moved.evaluate(interpolation, position, (span, &mut self.positions))?;
+                moved.evaluate(interpolation, bodies, &mut self.positions)?;
             }
+        }
+        for held in &mut self.held {
+            held.evaluate(bodies)?;
         }
         Ok(())
     }
@@ -169,19 +159,16 @@ fn last_of_each(targets: &[Option<usize>]) -> Vec<(usize, usize)> {
 }
 
 impl Held {
-    /// Evaluates its temperature at the stages of a step of size `step` that begins at `time`, from the old temperature.
-    pub(super) fn evaluate(
-        &mut self,
-        courses: &[(Element, TemperatureCourse)],
-        [time, step]: [f64; 2],
-        from: f64,
-    ) -> Result<(), StepFailure> {
-        let (_, course) = &courses[self.temperature];
+    /// Evaluates its temperature at the stages of a step, from the old temperature.
+    fn evaluate(&mut self, bodies: &dyn Bodies) -> Result<(), StepFailure> {
+        let (element, course) = &bodies.temperatures()[self.temperature];
+        let View { step, state, .. } = *bodies.view();
+        let (time, from) = (state.time.value, state.temperatures[self.slot]);
         for (theta, &share) in self.temperatures.iter_mut().zip(&TIMES) {
             let at = time + share * step;
             let value = course.at(at, from, share);
             if !is_positive(value) {
-                let load = TimedLoad::Temperature(self.element);
+                let load = TimedLoad::Temperature(*element);
                 return Err(StepFailure::of_load(load, 0, value, at));
             }
             *theta = value;
@@ -195,18 +182,20 @@ impl Moved {
     fn evaluate(
         &mut self,
         interpolation: &Interpolation,
-        position: Position<'_>,
-        ([time, step], positions): ([f64; 2], &mut [f64]),
+        bodies: &dyn Bodies,
+        positions: &mut [f64],
     ) -> Result<(), StepFailure> {
+        let View { step, state, .. } = *bodies.view();
+        let time = state.time.value;
         let dimension = positions.len() / POINTS;
         for (found, &share) in positions
             .chunks_exact_mut(dimension)
             .zip(&interpolation.points)
         {
             let at = time + share * step;
-            position(self, [at, share * step], found);
+            let node = bodies.find_position(self.motion, [at, share * step], found);
             if let Some(axis) = found.iter().position(|value| !value.is_finite()) {
-                let load = TimedLoad::Motion(self.node);
+                let load = TimedLoad::Motion(node);
                 return Err(StepFailure::of_load(load, axis, found[axis], at));
             }
         }

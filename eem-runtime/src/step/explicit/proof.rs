@@ -6,11 +6,10 @@ use super::accounts::Accounts;
 use super::bodies::Bodies;
 use super::closing::FROZEN;
 use super::components::Support;
-use super::memory::Momenta;
+use super::memory::momenta_of;
 use super::{Explicit, ExplicitView};
 use crate::algebra::{dot, largest};
 use crate::element::group::UnkeptEntropy;
-use crate::element::state::State;
 use crate::step::certificate::is_wide;
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
@@ -95,7 +94,7 @@ impl Accounts {
 
     /// The magnitude by which the state at the start of a step enters the bound of the energy, and its energy terms, J.
     #[cold]
-    fn terms_at_start(&self, bodies: &dyn Bodies, state: &State) -> [f64; 2] {
+    fn terms_at_start(&self, bodies: &dyn Bodies) -> [f64; 2] {
         let [mut motion, mut potential] = [0.0; 2];
         for at in 0..self.components.masses {
             let place = bodies.at(at);
@@ -106,7 +105,7 @@ impl Accounts {
             }
         }
         let [mut counted, mut terms] = [motion + potential, motion];
-        for energy in &state.energies {
+        for energy in &bodies.view().state.energies {
             counted += energy.magnitude + energy.excess;
             terms += energy.terms;
         }
@@ -122,7 +121,7 @@ impl<const D: usize> Explicit<D> {
         correction: f64,
         view: &ExplicitView<'_, D>,
     ) -> Result<Outcome, StepFailure> {
-        let time = view.state.time.value + view.step;
+        let time = view.end();
         if let Some(UnkeptEntropy { element, sizes }) = self.scratch.unkept {
             return Err(Law::KeptEntropy.not_kept(sizes, Some(element), time));
         }
@@ -132,8 +131,8 @@ impl<const D: usize> Explicit<D> {
             self.prove_momenta(index, time)?;
         }
         let start = self.books.terms.unwrap_or_else(|| {
-            let bodies = Self::bodies((&self.groups, &self.places), view);
-            self.accounts.terms_at_start(&bodies, view.state)
+            let (accounts, bodies) = self.parts(view);
+            accounts.terms_at_start(&bodies)
         });
         self.accounts.outcome(correction, sums, (start, time))
     }
@@ -146,7 +145,7 @@ impl<const D: usize> Explicit<D> {
             return Ok(());
         }
         let rounding = ROUNDINGS * f64::EPSILON;
-        let Momenta { linear, angular } = self.missing_momenta(index);
+        let missing = self.missing_momenta(index);
         // Sums of magnitudes are at most √D times a length.
         let [momenta, moments] = self.motions[index].terms;
         let mut dimension = 0.0;
@@ -155,10 +154,10 @@ impl<const D: usize> Explicit<D> {
         }
         if support == Support::Free {
             let bound = rounding * (momenta / dimension.sqrt());
-            expect(Law::LinearMomentum, [largest(&linear), bound], time)?;
+            expect(Law::LinearMomentum, [largest(&missing.linear), bound], time)?;
         }
         let own = rounding * (moments / dimension);
-        let left = angular.largest();
+        let left = missing.angular.largest();
         let mut bound = own + rounding * (self.scratch.progress[index].moment / dimension);
         if !(left <= own) {
             bound += rounding * (self.moment_at_start(index) / dimension);
@@ -170,10 +169,10 @@ impl<const D: usize> Explicit<D> {
         let is_half_of_digits =
             || left > f64::EPSILON.sqrt() * self.angular_target(index).largest();
         if left > own || (D > 2 && is_half_of_digits()) {
-            let mut targets = self.books.momenta_of_mut(index, D)[D..].iter_mut();
-            angular.each(|left| {
-                if let Some(target) = targets.next() {
-                    target.add(-left);
+            let targets = &mut self.books.momenta[momenta_of(index, D)];
+            missing.each(&mut |at, left| {
+                if at >= D {
+                    targets[at].add(-left);
                 }
             });
         }

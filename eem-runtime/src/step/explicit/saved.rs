@@ -2,16 +2,13 @@
 
 use super::Explicit;
 use super::accounts::Accounts;
-use super::memory::{SavedExplicit, momenta};
+use super::memory::{SavedExplicit, momenta_of};
 use crate::element::state::State;
 use eem_material::number::compensated::Sum;
 
-/// Calls a function for all rates that are kept, at the start of the step and now.
-type EachRate<'a> = &'a mut dyn FnMut(&mut dyn FnMut([&mut f64; 2]));
-
 impl Accounts {
-    /// Everything besides the state that the next step depends on.
-    fn save(&self, state: &State, each_rate: EachRate<'_>) -> SavedExplicit {
+    /// Everything besides the state that the next step depends on, given the rates of places.
+    fn save(&self, state: &State, mut rates: Vec<f64>) -> SavedExplicit {
         // After an attempt that was not accepted, what was before it; targets are kept only where steps change them.
         let (sums, own) = if self.has_left {
             (&self.old_books, &self.start_loads)
@@ -26,10 +23,12 @@ impl Accounts {
         let mut targets = Vec::new();
         for (index, target) in books.targets.iter().enumerate() {
             targets.extend_from_slice(&[target.energy, target.lost]);
-            targets.extend_from_slice(books.momenta_of(index, self.dimension));
+            targets.extend_from_slice(&books.momenta[momenta_of(index, self.dimension)]);
         }
-        let mut rates = Vec::new();
-        each_rate(&mut |[start, now]| rates.push(if self.has_left { *start } else { *now }));
+        let mut keep = |[start, now]: [&mut f64; 2]| {
+            rates.push(if self.has_left { *start } else { *now });
+        };
+        self.stage.clone().each_rate(&mut keep);
         let mut saved = SavedExplicit {
             is_new: !self.is_ready,
             state: state.digest(),
@@ -59,10 +58,10 @@ impl Accounts {
                 *own = *sum;
             }
         };
-        let momenta = books.momenta.chunks_exact_mut(momenta(self.dimension));
-        for (target, momenta) in books.targets.iter_mut().zip(momenta) {
+        for (index, target) in books.targets.iter_mut().enumerate() {
             take(&mut target.energy);
             take(&mut target.lost);
+            let momenta = &mut books.momenta[momenta_of(index, self.dimension)];
             momenta.iter_mut().for_each(&mut take);
         }
         books.shares.copy_from_slice(&saved.shares);
@@ -81,12 +80,13 @@ impl Accounts {
 impl<const D: usize> Explicit<D> {
     /// Everything besides the state that the next step depends on.
     pub(crate) fn save(&self, state: &State) -> SavedExplicit {
-        self.accounts.save(state, &mut |visit| {
-            for place in &self.places[..self.kept_places] {
-                place.clone().each_rate(visit);
-            }
-            self.stage.clone().each_rate(visit);
-        })
+        let mut rates = Vec::new();
+        for place in &self.places[..self.kept_places] {
+            let [start, now] = [&place.past.rates[0], &place.rates];
+            let own = if self.has_left { start } else { now };
+            rates.extend_from_slice(own.as_flattened());
+        }
+        self.accounts.save(state, rates)
     }
 
     /// Continues from a checkpoint of the same scene.

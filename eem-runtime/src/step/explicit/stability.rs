@@ -21,7 +21,7 @@ const DASHPOT: usize = 2;
 impl Accounts {
     /// The fastest vibration, conduction and dashpot, by bounds of the eigenvalues: sums of rows of the
     /// matrices that are symmetric in `√m q` and `√c θ`, 1/s.
-    fn fastest(&mut self, bodies: &dyn Bodies, view: &View<'_>) -> [f64; 3] {
+    fn fastest(&mut self, bodies: &dyn Bodies) -> [f64; 3] {
         let RowSums {
             squares,
             capacities,
@@ -31,12 +31,12 @@ impl Accounts {
         capacities.fill(0.0);
         flows.fill(0.0);
         let per_root = |node: usize| {
-            let mass = view.masses.get(node);
+            let mass = bodies.view().masses.get(node);
             mass.map_or(0.0, |mass| mass.sqrt().recip())
         };
         let mut relaxation = 0.0;
         let held = &self.stage;
-        bodies.see_stiffnesses(view.state, &mut |element| {
+        bodies.see_stiffnesses(&mut |element| {
             let [a, b] = element.ends();
             let [by_a, by_b] = [per_root(a), per_root(b)];
             let mut stiffness = element.elastic;
@@ -57,12 +57,7 @@ impl Accounts {
 
     /// The reason behind a failure, if the step is too long to be stable.
     #[cold]
-    pub(super) fn explain(
-        &mut self,
-        bodies: &dyn Bodies,
-        failure: StepFailure,
-        view: &View<'_>,
-    ) -> StepFailure {
+    pub(super) fn explain(&mut self, bodies: &dyn Bodies, failure: StepFailure) -> StepFailure {
         let may_be_unstable = matches!(
             failure,
             StepFailure::State(_)
@@ -74,9 +69,8 @@ impl Accounts {
         if !may_be_unstable {
             return failure;
         }
-        let end = view.state.time.value + view.step;
-        unstable(self.fastest(bodies, view), 0, [view.step, end])
-            .or_else(|| self.too_cold(bodies, &failure, view))
+        unstable(self.fastest(bodies), 0, bodies.view())
+            .or_else(|| self.too_cold(bodies, &failure))
             .unwrap_or(failure)
     }
 
@@ -86,22 +80,15 @@ impl Accounts {
     pub(super) fn expect_stable_dashpots(
         &mut self,
         bodies: &dyn Bodies,
-        view: &View<'_>,
     ) -> Result<(), StepFailure> {
         if self.components.dashpots.is_empty() {
             return Ok(());
         }
-        let end = view.state.time.value + view.step;
-        unstable(self.fastest(bodies, view), DASHPOT, [view.step, end]).map_or(Ok(()), Err)
+        unstable(self.fastest(bodies), DASHPOT, bodies.view()).map_or(Ok(()), Err)
     }
 
     /// The element without an admissible temperature, as it was at the start of the step.
-    fn too_cold(
-        &self,
-        bodies: &dyn Bodies,
-        failure: &StepFailure,
-        view: &View<'_>,
-    ) -> Option<StepFailure> {
+    fn too_cold(&self, bodies: &dyn Bodies, failure: &StepFailure) -> Option<StepFailure> {
         let StepFailure::State(
             StateError::Temperature { element, .. }
             | StateError::HeatCapacity { element, .. }
@@ -113,7 +100,7 @@ impl Accounts {
         let elements = &self.components.elements;
         let slot = elements.iter().position(|&at| at == element.index())?;
         let mut heat_capacity = 0.0;
-        bodies.see_stiffnesses(view.state, &mut |found| {
+        bodies.see_stiffnesses(&mut |found| {
             if let Some((own, capacity)) = found.capacity
                 && own == slot
             {
@@ -124,9 +111,9 @@ impl Accounts {
         is_known.then(|| StepFailure::TooCold {
             element: *element,
             heat_capacity,
-            temperature: view.state.temperatures[slot],
+            temperature: bodies.view().state.temperatures[slot],
             scheme: Scheme::EemEntropy.name(),
-            time: view.state.time.value + view.step,
+            time: bodies.view().end(),
         })
     }
 }
@@ -134,8 +121,8 @@ impl Accounts {
 impl<const D: usize> Explicit<D> {
     /// The step as a fraction of the longest stable one.
     pub(crate) fn share_of_stable_step(&mut self, view: &ExplicitView<'_, D>) -> f64 {
-        let bodies = Self::bodies((&self.groups, &self.places), view);
-        let rates = self.accounts.fastest(&bodies, view);
+        let (accounts, bodies) = self.parts(view);
+        let rates = accounts.fastest(&bodies);
         let mut largest = 0.0_f64;
         for (rate, limit) in rates.iter().zip(LIMITS) {
             largest = largest.max(rate / limit);
@@ -145,7 +132,8 @@ impl<const D: usize> Explicit<D> {
 }
 
 /// The error of a step that is too long for one of the processes from this one on.
-fn unstable(rates: [f64; 3], first: usize, [h, time]: [f64; 2]) -> Option<StepFailure> {
+fn unstable(rates: [f64; 3], first: usize, view: &View<'_>) -> Option<StepFailure> {
+    let h = view.step;
     let process = (first..rates.len()).find(|&process| h * rates[process] > LIMITS[process])?;
     let (fastest, limit) = (rates[process], LIMITS[process]);
     Some(StepFailure::Unstable {
@@ -154,7 +142,7 @@ fn unstable(rates: [f64; 3], first: usize, [h, time]: [f64; 2]) -> Option<StepFa
         limit,
         longest: limit / fastest,
         scheme: Scheme::EemEntropy.name(),
-        time,
+        time: view.end(),
     })
 }
 

@@ -37,25 +37,11 @@ pub(super) fn errors<const N: usize, const P: usize>(past: &Past<N, P>) -> [[[f6
     ]
 }
 
-/// The same of one of so many variables, whose rates are in rows.
-pub(super) fn errors_of(rates: &[f64], variables: usize, index: usize) -> [f64; 2] {
-    [
-        combined(&ERROR_5, rates, variables, index),
-        combined(&ERROR_3, rates, variables, index),
-    ]
-}
-
-/// One of so many variables at the end of a step of the size h, before it is closed.
-pub(super) fn unclosed_of(
-    start: f64,
-    h: f64,
+/// `Σ a k` for one of so many variables, whose rates are one row after the other.
+pub(super) fn combined(
+    a: &[f64; WEIGHTED.len()],
     (rates, variables, index): (&[f64], usize, usize),
 ) -> f64 {
-    start + h * combined(&WEIGHTS, rates, variables, index)
-}
-
-/// `Σ a k` for one of so many variables.
-fn combined(a: &[f64; WEIGHTED.len()], rates: &[f64], variables: usize, index: usize) -> f64 {
     let mut sum = a[0] * rates[WEIGHTED_ROWS[0] * variables + index];
     for term in 1..a.len() {
         sum += a[term] * rates[WEIGHTED_ROWS[term] * variables + index];
@@ -192,9 +178,10 @@ impl<const D: usize> Explicit<D> {
 
     /// Initialises the forces on masses with the loads.
     fn apply_loads(&mut self) {
-        let masses = self.places[..self.accounts.components.masses].iter_mut();
-        for (place, &node) in masses.zip(&self.accounts.components.nodes) {
-            place.rates[1] = self.accounts.loads.total_force(node);
+        let components = &self.accounts.components;
+        for at in 0..components.masses {
+            let load = self.accounts.loads.total_force(components.nodes[at]);
+            self.places[at].rates[1] = load;
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::accounts::Accounts;
 use super::components::Support;
-use super::memory::Momenta;
+use super::memory::momenta_of;
 use super::outside::copy_loads;
 use super::tableau::WEIGHTS;
 use super::{Explicit, ExplicitView};
@@ -108,7 +108,8 @@ impl<const D: usize> Explicit<D> {
         }
         let positions = points::<D>(state.positions.values());
         let momenta = points::<D>(state.momenta.values());
-        for (place, &node) in self.places.iter_mut().zip(&self.accounts.components.nodes) {
+        for at in 0..self.places.len() {
+            let (place, node) = (&mut self.places[at], self.accounts.components.nodes[at]);
             place.now = [positions[node], momenta[node]];
             place.force = self.accounts.loads.total_force(node);
             place.begin_rates();
@@ -131,16 +132,8 @@ impl<const D: usize> Explicit<D> {
         for index in 0..self.components.all.len() {
             self.look_at_motion(index);
             if self.components.all[index].support != Support::Several {
-                let Momenta { linear, angular } = &self.momenta[index];
-                let targets = self.accounts.books.momenta_of_mut(index, D);
-                let mut targets = targets.iter_mut();
-                let mut set = |momentum| {
-                    if let Some(target) = targets.next() {
-                        *target = Sum::new(momentum);
-                    }
-                };
-                linear.iter().copied().for_each(&mut set);
-                angular.each(set);
+                let targets = &mut self.accounts.books.momenta[momenta_of(index, D)];
+                self.momenta[index].each(&mut |at, momentum| targets[at] = Sum::new(momentum));
             }
         }
         self.set_targets(state);

@@ -14,9 +14,9 @@ use eem_material::free_energy::Material;
 
 /// Springs of the model `M` with the kinematics `K`. Their forces follow from the state alone.
 pub(crate) struct ExplicitElements<M: Material, K: Kinematics<D>, const D: usize> {
-    pub(super) points: Vec<ExplicitPoint<M, K, D>>,
+    points: Vec<ExplicitPoint<M, K, D>>,
     /// Per element: its last evaluation in a closing.
-    pub(super) closed: Vec<Closed<M, K, D>>,
+    closed: Vec<Closed<M, K, D>>,
     /// The elements in a state, whose models may be behind a table.
     all: Box<dyn Group<D>>,
 }
@@ -59,22 +59,53 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitGroup<D> for Explici
     }
 
     fn rates(&self, places: &mut [Place<D>], stage: &mut Stage) -> Result<(), StateError> {
-        self.rates_of_all(places, stage)
+        // Known from here on, so that an index is checked once for both.
+        assert!(
+            stage.inner.len() == stage.inner_rates.len(),
+            "each internal variable has a rate"
+        );
+        for point in &self.points {
+            if !point.add_rates(places, stage) {
+                return Err(point.refuse((places, stage)));
+            }
+        }
+        Ok(())
     }
 
     fn integrate_thermostats(&self, places: &[Place<D>], stage: &mut Stage, is_start: bool) {
-        self.integrate_thermostats_of_all(places, stage, is_start);
+        for point in &self.points {
+            let held = point.slot().filter(|&slot| stage.is_held(slot));
+            if let Some(slot) = held {
+                point.integrate_thermostat(slot, (places, stage), is_start);
+            }
+        }
     }
 
     fn close(&mut self, view: &mut ClosingView<'_, D>) -> Result<(), StateError> {
-        self.close_all(view)
+        for (point, closed) in self.points.iter().zip(&mut self.closed) {
+            if view.open[point.component as usize] {
+                point.close_at(view, closed)?;
+            }
+        }
+        Ok(())
     }
 
     fn pull(&self, components: &[bool], forces: &mut [[f64; D]], creep: &mut [[f64; 2]]) {
-        self.pull_all(components, forces, creep);
+        for (point, closed) in self.points.iter().zip(&self.closed) {
+            if components[point.component as usize] {
+                point.pull_at(closed, (forces, creep));
+            }
+        }
     }
 
     fn finish(&self, places: &mut [Place<D>], stage: &mut Stage) -> Result<(), StateError> {
-        self.finish_all(places, stage)
+        for (point, closed) in self.points.iter().zip(&self.closed) {
+            let theta = point.temperature_in(stage);
+            let found = closed.at(theta, point.model.dashpots());
+            if !point.write_rates(&found, (&mut *places, &mut *stage)) {
+                return Err(point.refuse((places, stage)));
+            }
+        }
+        Ok(())
     }
 }

@@ -71,7 +71,7 @@ impl Accounts {
     }
 
     /// Corrects the energy by heat as long as no element has to be evaluated for it.
-    #[inline]
+    #[inline(never)]
     pub(super) fn balance(&mut self, index: usize, demand: Demand, next: &mut State) -> Status {
         loop {
             let is_finite = self.look(index);

@@ -4,11 +4,11 @@ use super::super::Explicit;
 use super::super::components::{Component, Support};
 use super::super::inertia::turning::turning;
 use super::super::inertia::{Inertia, Moments, WEAK};
-use super::super::memory::{Momenta, Motion, farther};
+use super::super::memory::{Momenta, Motion, farther, momenta_of};
 use super::super::origin::Origin;
 use super::energy::add_motion;
 use crate::algebra::bivector::Bivector;
-use crate::algebra::{add, dot, size, vector};
+use crate::algebra::{add, dot, size};
 use crate::element::group::Place;
 
 /// Defects up to this many roundings of `Σ |q||p|` are corrected by momenta; only for larger ones positions are
@@ -183,16 +183,10 @@ impl<const D: usize> Explicit<D> {
     /// The defects of the momenta of a component.
     #[inline]
     pub(in super::super) fn missing_momenta(&self, index: usize) -> Momenta<D> {
-        let Momenta { linear, angular } = &self.momenta[index];
-        let targets = self.books.momenta_of(index, D);
-        let mut at = D;
-        Momenta {
-            linear: vector(|axis| targets[axis].beyond(linear[axis])),
-            angular: angular.map(0.0, |own| {
-                at += 1;
-                targets[at - 1].beyond(own)
-            }),
-        }
+        let targets = &self.books.momenta[momenta_of(index, D)];
+        let mut missing = self.momenta[index];
+        missing.change(|at, own| targets[at].beyond(own));
+        missing
     }
 
     /// Whether the target of masses on a line has an angular momentum in planes perpendicular to the line, which no
@@ -231,9 +225,10 @@ impl<const D: usize> Explicit<D> {
     }
 
     pub(in super::super) fn angular_target(&self, index: usize) -> Bivector<f64, D> {
-        let mut targets = self.books.momenta_of(index, D)[D..].iter();
-        let next = |_| targets.next().map_or(0.0, |target| target.value);
-        Bivector::zero().map(0.0, next)
+        let targets = &self.books.momenta[momenta_of(index, D)];
+        let mut momenta = Momenta::none();
+        momenta.change(|at, _| targets[at].value);
+        momenta.angular
     }
 
     /// Rotates positions and momenta of a component, so that its momenta can be corrected; returns whether it did.

@@ -42,14 +42,12 @@
 //! if step control would feel the correction and no anchor is moved. It stays a debt, so that the energy does not drift: what is more than
 //! rounding is corrected. The work of moved anchors changes the prestress, which a debt would outlive.
 
-use super::super::View;
 use super::super::accounts::Accounts;
 use super::super::bodies::Bodies;
 use super::super::memory::Motion;
 use super::{FROZEN, Status};
 use crate::algebra::{dot, size};
 use crate::element::group::ComponentEnergy;
-use crate::element::state::State;
 use eem_material::number::scalar::Scalar;
 
 impl Accounts {
@@ -70,12 +68,7 @@ impl Accounts {
     }
 
     /// Closed if the remaining defect, or what this step adds to it, is rounding, failed otherwise.
-    pub(super) fn unless_rounding(
-        &mut self,
-        bodies: &dyn Bodies,
-        index: usize,
-        view: &View<'_>,
-    ) -> Status {
+    pub(super) fn unless_rounding(&mut self, bodies: &dyn Bodies, index: usize) -> Status {
         let mut progress = self.scratch.progress[index];
         let (defect, scale) = (progress.defect, progress.scale);
         let is_rounding =
@@ -83,10 +76,10 @@ impl Accounts {
         progress.granularity = self.granularity(bodies, index);
         progress.is_closed = is_rounding(defect, progress.granularity);
         if !progress.is_closed {
-            progress.granularity += self.terms_at_rest(bodies, index, view);
+            progress.granularity += self.terms_at_rest(bodies, index);
             progress.is_forgiven = is_rounding(defect, progress.granularity);
             if !progress.is_forgiven && self.is_driven {
-                progress.debt = self.debt(bodies, index, view.state);
+                progress.debt = self.debt(bodies, index);
                 progress.is_forgiven = is_rounding(defect - progress.debt, progress.granularity);
             }
             progress.is_closed = progress.is_forgiven;
@@ -101,14 +94,14 @@ impl Accounts {
 
     /// The defect of the energy of a component at the start of the step, J.
     #[cold]
-    fn debt(&mut self, bodies: &dyn Bodies, index: usize, start: &State) -> f64 {
+    fn debt(&mut self, bodies: &dyn Bodies, index: usize) -> f64 {
         let (motion, energy) = (self.motions[index], self.scratch.energies[index]);
         let (mut of_masses, mut inner) = (Motion::default(), ComponentEnergy::default());
         for at in self.components.all[index].masses.clone() {
             let place = bodies.at(at);
             of_masses.add_energy(place.start, place.force, place.per_mass);
         }
-        for energy in self.components.energies_in(start, index) {
+        for energy in self.components.energies_in(bodies.view().state, index) {
             inner.add(energy);
         }
         (self.motions[index], self.scratch.energies[index]) = (of_masses, inner);
@@ -126,12 +119,11 @@ impl Accounts {
         bodies: &dyn Bodies,
         index: usize,
         magnitude: f64,
-        view: &View<'_>,
     ) -> f64 {
         self.scratch.needs_forces.fill(false);
         self.scratch.needs_forces[index] = true;
         self.find_forces(bodies);
-        let terms = self.granularity(bodies, index) + self.terms_at_rest(bodies, index, view);
+        let terms = self.granularity(bodies, index) + self.terms_at_rest(bodies, index);
         FROZEN * f64::EPSILON * (magnitude + terms)
     }
 
@@ -163,8 +155,9 @@ impl Accounts {
 
     /// The terms that do not vanish with the energy, J.
     #[cold]
-    fn terms_at_rest(&mut self, bodies: &dyn Bodies, index: usize, view: &View<'_>) -> f64 {
-        self.find_stiffnesses(bodies, view);
+    fn terms_at_rest(&mut self, bodies: &dyn Bodies, index: usize) -> f64 {
+        let view = bodies.view();
+        self.find_stiffnesses(bodies);
         let mut sum = self.scratch.energies[index].excess;
         if let Some(loads) = self.load_sums.get(index) {
             sum += (view.step * loads.work).abs() + 0.5 / FROZEN * loads.noise;
@@ -195,12 +188,12 @@ impl Accounts {
             let way = (now - self.stage.inner_start(dashpot)).abs();
             sum += self.scratch.pulls[dashpot] * (way + f64::EPSILON * now.abs());
         }
-        sum + self.rounding_of_work(bodies, index, view) / (FROZEN * f64::EPSILON)
+        sum + self.rounding_of_work(bodies, index) / (FROZEN * f64::EPSILON)
     }
 
     /// The work that the rounding of loads explains, J: of the impulses on masses and of the positions of moved anchors.
-    fn rounding_of_work(&mut self, bodies: &dyn Bodies, index: usize, view: &View<'_>) -> f64 {
-        self.find_rounding(bodies, view);
+    fn rounding_of_work(&mut self, bodies: &dyn Bodies, index: usize) -> f64 {
+        self.find_rounding(bodies);
         if self.rounding.is_none() {
             return 0.0;
         }
@@ -219,15 +212,15 @@ impl Accounts {
     }
 
     /// Finds the stiffnesses of the elements at each node, and the terms of the force of each dashpot, once in a step.
-    fn find_stiffnesses(&mut self, bodies: &dyn Bodies, view: &View<'_>) {
+    fn find_stiffnesses(&mut self, bodies: &dyn Bodies) {
         if self.scratch.has_stiffnesses {
             return;
         }
         self.scratch.has_stiffnesses = true;
         let (sums, pulls) = (&mut self.scratch.stiffnesses, &mut self.scratch.pulls);
         sums.fill(0.0);
-        let (positions, d) = (view.state.positions.values(), self.dimension);
-        bodies.see_stiffnesses(view.state, &mut |point| {
+        let (positions, d) = (bodies.view().state.positions.values(), self.dimension);
+        bodies.see_stiffnesses(&mut |point| {
             let mut coordinates = 0.0;
             for &node in point.nodes {
                 let node = node as usize;

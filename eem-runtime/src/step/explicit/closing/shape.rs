@@ -192,8 +192,8 @@ impl<const D: usize> Explicit<D> {
         if iterations < MOST_ITERATIONS && self.sink(index, defect, next) {
             return Status::Changed;
         }
-        let bodies = Self::bodies((&self.groups, &self.places), view);
-        self.accounts.unless_rounding(&bodies, index, view)
+        let (accounts, bodies) = self.parts(view);
+        accounts.unless_rounding(&bodies, index)
     }
 
     fn means(&self, index: usize, view: &ExplicitView<'_, D>) -> Means<D> {
