@@ -33,6 +33,7 @@ mod stages;
 mod start;
 mod tableau;
 mod thermostats;
+mod view;
 
 use core::mem;
 use core::ops::{Deref, DerefMut};
@@ -43,9 +44,8 @@ use crate::element::group::{Elements, ExplicitGroup, Loose, Place};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
-use crate::element::state::State;
 use crate::scene::loads::Loads;
-use crate::step::control::{LeastScales, LoadRounding};
+use crate::step::control::LoadRounding;
 use accounts::Accounts;
 use bodies::BodiesIn;
 use components::Components;
@@ -55,6 +55,7 @@ use prescribed::Prescribed;
 pub(crate) use demand::Demand;
 pub(crate) use memory::SavedExplicit;
 pub(crate) use tableau::{REAL_LIMIT, load_rule, motion_rule};
+pub(crate) use view::{ExplicitView, View};
 
 /// The explicit scheme for a scene.
 pub(crate) struct Explicit<const D: usize> {
@@ -66,42 +67,6 @@ pub(crate) struct Explicit<const D: usize> {
     momenta: Vec<Momenta<D>>,
     /// The impulses of the loads on each component since the start of the step, per step; empty without loads.
     impulses: Vec<Momenta<D>>,
-}
-
-/// The input of a step, without loads.
-#[derive(Clone, Copy)]
-pub(crate) struct View<'a> {
-    /// h, s.
-    pub(crate) step: f64,
-    /// The old state.
-    pub(crate) state: &'a State,
-    pub(crate) conduction: &'a Conduction,
-    pub(crate) masses: &'a Masses,
-    pub(crate) least: &'a LeastScales,
-}
-
-impl View<'_> {
-    /// The time at the end of the step, s.
-    #[inline]
-    fn end(&self) -> f64 {
-        self.state.time.value + self.step
-    }
-}
-
-/// The input of a step.
-#[derive(Clone, Copy)]
-pub(crate) struct ExplicitView<'a, const D: usize> {
-    pub(crate) view: View<'a>,
-    pub(crate) loads: &'a Loads<D>,
-}
-
-impl<'a, const D: usize> Deref for ExplicitView<'a, D> {
-    type Target = View<'a>;
-
-    #[inline]
-    fn deref(&self) -> &View<'a> {
-        &self.view
-    }
 }
 
 /// The scene for which an explicit scheme is built.

@@ -1,6 +1,6 @@
 //! The bodies of a scene of any dimension, for what is not worth being compiled for each.
 
-use super::{ExplicitView, View};
+use super::view::{ExplicitView, View};
 use crate::element::group::{ExplicitGroup, Place, Stiffness, points};
 use crate::element::handle::{Element, Node};
 use crate::scene::loads::TemperatureCourse;

@@ -8,10 +8,10 @@ use core::f64::consts::PI;
 
 use crate::algebra::vector;
 use crate::step::error::StepFailure;
-use crate::step::explicit::View;
 use crate::step::explicit::bodies::Bodies;
 use crate::step::explicit::components::Components;
 use crate::step::explicit::tableau::{STAGES, TIMES};
+use crate::step::explicit::view::View;
 use crate::step::timed::TimedLoad;
 use eem_material::number::scalar::{Scalar, is_positive};
 

@@ -150,7 +150,7 @@ fn turned<const D: usize>(place: &Place<D>, rigid: &Rigid<D>, h: f64) -> [[f64; 
     let [position, momentum] = &place.past.start;
     let speed = rigid.omega.square().sqrt();
     let per = if speed > 0.0 { speed } else { 1.0 };
-    let about = rigid.omega.map(0.0, |w| w / per);
+    let about = rigid.omega.over(per);
     let mut along = [0.0; D];
     add(&mut along, place.mass, &rigid.velocity);
     let mut way = rotated(&rigid.origin.arm(position), &about, speed * h);
