@@ -16,18 +16,6 @@ impl<T: Copy, const D: usize> Bivector<T, D> {
         Self([[value; D]; D])
     }
 
-    /// The bivector with these components, by axes `i < j`.
-    #[inline]
-    fn of(unused: T, mut of: impl FnMut(usize, usize) -> T) -> Self {
-        let mut result = Self::filled(unused);
-        for i in 0..D {
-            for j in i + 1..D {
-                result.0[i][j] = of(i, j);
-            }
-        }
-        result
-    }
-
     /// The component of the plane of two axes `i < j`.
     #[inline]
     pub(crate) const fn at(&self, [i, j]: [usize; 2]) -> T {
@@ -37,23 +25,6 @@ impl<T: Copy, const D: usize> Bivector<T, D> {
     #[inline]
     pub(crate) const fn at_mut(&mut self, [i, j]: [usize; 2]) -> &mut T {
         &mut self.0[i][j]
-    }
-
-    /// The bivector of functions of the components.
-    #[inline]
-    pub(crate) fn map<U: Copy>(&self, unused: U, mut of: impl FnMut(T) -> U) -> Bivector<U, D> {
-        Bivector::of(unused, |i, j| of(self.0[i][j]))
-    }
-
-    /// The bivector of functions of the components of two.
-    #[inline]
-    pub(crate) fn zip<V: Copy, U: Copy>(
-        &self,
-        other: &Bivector<V, D>,
-        unused: U,
-        of: impl Fn(T, V) -> U,
-    ) -> Bivector<U, D> {
-        Bivector::of(unused, |i, j| of(self.0[i][j], other.0[i][j]))
     }
 }
 
@@ -72,7 +43,24 @@ impl<const D: usize> Bivector<f64, D> {
     /// `r ∧ p`.
     #[inline]
     pub(crate) fn wedge(r: &[f64; D], p: &[f64; D]) -> Self {
-        Self::of(0.0, |i, j| r[i] * p[j] - r[j] * p[i])
+        let mut result = Self::zero();
+        for i in 0..D {
+            for j in i + 1..D {
+                result.0[i][j] = r[i] * p[j] - r[j] * p[i];
+            }
+        }
+        result
+    }
+
+    /// `self / by`.
+    #[inline]
+    pub(crate) fn over(mut self, by: f64) -> Self {
+        for i in 0..D {
+            for j in i + 1..D {
+                self.0[i][j] /= by;
+            }
+        }
+        self
     }
 
     /// `self += factor · other`.

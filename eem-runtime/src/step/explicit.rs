@@ -14,6 +14,7 @@
 
 mod accounts;
 mod attempt;
+mod bodies;
 mod booking;
 mod closing;
 mod components;
@@ -32,6 +33,7 @@ mod stages;
 mod start;
 mod tableau;
 mod thermostats;
+mod view;
 
 use core::mem;
 use core::ops::{Deref, DerefMut};
@@ -42,67 +44,29 @@ use crate::element::group::{Elements, ExplicitGroup, Loose, Place};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
-use crate::element::state::State;
 use crate::scene::loads::Loads;
-use crate::step::control::{LeastScales, LoadRounding};
+use crate::step::control::LoadRounding;
 use accounts::Accounts;
+use bodies::BodiesIn;
 use components::Components;
-use memory::{LoadSums, Momenta, Motion};
-use prescribed::{Prescribed, held};
+use memory::Momenta;
+use prescribed::Prescribed;
 
 pub(crate) use demand::Demand;
 pub(crate) use memory::SavedExplicit;
 pub(crate) use tableau::{REAL_LIMIT, load_rule, motion_rule};
+pub(crate) use view::{ExplicitView, View};
 
 /// The explicit scheme for a scene.
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "each says something of its own"
-)]
 pub(crate) struct Explicit<const D: usize> {
     groups: Vec<Box<dyn ExplicitGroup<D>>>,
     accounts: Accounts,
     /// Masses, then anchors.
     places: Vec<Place<D>>,
-    prescribed: Prescribed<D>,
-    /// Whether forces are functions of time.
-    has_functions: bool,
-    /// The loads at the present stage, and at the start of the step.
-    loads: StepLoads,
-    start_loads: StepLoads,
-    /// The number of places, entries of the stage vector, whose rates are kept: masses, and anchors where some are moved.
-    kept_places: usize,
-    /// Work and impulses of the loads on each component since the start of the step; empty without loads.
-    load_sums: Vec<LoadSums<D>>,
-    /// The targets of the momenta of each component, now and before the step.
+    /// The momenta of each component.
     momenta: Vec<Momenta<D>>,
-    old_momenta: Vec<Momenta<D>>,
-    /// The motion of each component.
-    motions: Vec<Motion<D>>,
-    /// The forces of the elements on places, where they are needed, N.
-    forces: Vec<[f64; D]>,
-    /// Whether rates and targets belong to the state, now and before the last attempt.
-    is_ready: bool,
-    was_ready: bool,
-    /// Whether the stage has left the start of a step that was not accepted, so that it has to be restored.
-    has_left: bool,
-    /// How often all elements have been evaluated.
-    evaluations: u64,
-    /// The rounding of the loads of the last step where it was needed.
-    rounding: LoadRounding,
-}
-
-/// The input of a step.
-#[derive(Clone, Copy)]
-pub(crate) struct ExplicitView<'a, const D: usize> {
-    /// h, s.
-    pub(crate) step: f64,
-    /// The old state.
-    pub(crate) state: &'a State,
-    pub(crate) conduction: &'a Conduction,
-    pub(crate) loads: &'a Loads<D>,
-    pub(crate) masses: &'a Masses,
-    pub(crate) least: &'a LeastScales,
+    /// The impulses of the loads on each component since the start of the step, per step; empty without loads.
+    impulses: Vec<Momenta<D>>,
 }
 
 /// The scene for which an explicit scheme is built.
@@ -118,52 +82,50 @@ pub(crate) struct Site<'a, const D: usize> {
 impl<const D: usize> Explicit<D> {
     /// For these groups, which know their entropies already.
     pub(crate) fn new(mut groups: Vec<Box<dyn ExplicitGroup<D>>>, site: Site<'_, D>) -> Self {
-        let components = Components::new(site.masses, site.elements, site.layout, site.conduction);
-        let place_of = components.place_of();
+        let (components, ends) =
+            Components::new(site.masses, site.elements, site.layout, site.conduction);
         for group in &mut groups {
-            group.join((&components.of_element, site.layout.viscous), &place_of);
+            group.join((&components.of_element, &ends), site.layout.viscous);
         }
-        let prescribed = Prescribed::new(site.loads, &components);
-        let held = held(&site.loads.temperatures, site.layout);
-        let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads, false);
-        let counts = [site.masses.len(), site.layout.thermal];
-        let rounding = LoadRounding::new(site.loads, loads.slots.clone(), counts);
-        let moves = !prescribed.moved.is_empty();
-        let has_loads = loads.has_total_force() || moves;
         let mut places = Vec::with_capacity(components.nodes.len());
         for &node in &components.nodes {
             places.push(Place::new(site.masses.get(node).unwrap_or(0.0)));
         }
-        let count = components.all.len();
-        let momenta = vec![Momenta::none(); count];
-        Self {
-            load_sums: vec![LoadSums::none(); if has_loads { count } else { 0 }],
-            old_momenta: momenta.clone(),
-            momenta,
-            motions: vec![Motion::none(); count],
-            forces: vec![[0.0; D]; places.len()],
-            kept_places: if moves {
-                places.len()
-            } else {
-                components.masses
-            },
-            places,
-            accounts: Accounts::new(
-                (components, held),
-                (site.layout, site.conduction, site.masses.len()),
-                has_loads,
-            ),
-            groups,
-            prescribed,
-            start_loads: loads.clone(),
-            loads,
-            has_functions: site.loads.have_forces_of_time(),
-            is_ready: false,
-            was_ready: false,
-            has_left: false,
-            evaluations: 0,
-            rounding,
+        let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads, false);
+        let counts = [site.masses.len(), site.layout.thermal];
+        let mut moved = Vec::with_capacity(site.loads.motions.len());
+        for (node, _) in &site.loads.motions {
+            moved.push(Some(node.index));
         }
+        let prescribed = Prescribed::new([&moved, &loads.slots], &components, D);
+        let rounding = LoadRounding::new(site.loads, loads.slots.clone(), counts);
+        let accounts = Accounts::new(
+            (components, prescribed),
+            (loads, rounding, site.loads.have_forces_of_time()),
+            (site.layout, site.conduction),
+            [site.masses.len(), D],
+        );
+        Self {
+            momenta: vec![Momenta::none(); accounts.motions.len()],
+            impulses: vec![Momenta::none(); accounts.load_sums.len()],
+            places,
+            accounts,
+            groups,
+        }
+    }
+
+    /// The accounts, and what they may ask of the bodies.
+    fn parts<'a>(
+        &'a mut self,
+        view: &'a ExplicitView<'a, D>,
+    ) -> (&'a mut Accounts, BodiesIn<'a, D>) {
+        let (groups, places) = (&self.groups, &self.places);
+        let bodies = BodiesIn {
+            places,
+            groups,
+            view,
+        };
+        (&mut self.accounts, bodies)
     }
 
     /// A group of elements.
@@ -177,7 +139,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Calls a function for each group of elements.
-    pub(crate) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<D>)) {
+    pub(crate) fn each_mut(&mut self, visit: &mut dyn FnMut(&mut dyn Elements<D>)) {
         for group in &mut self.groups {
             visit(group.elements_mut());
         }
@@ -191,7 +153,7 @@ impl<const D: usize> Explicit<D> {
 
     /// How often all elements have been evaluated.
     pub(crate) const fn evaluations(&self) -> u64 {
-        self.evaluations
+        self.accounts.evaluations
     }
 
     /// Whether energy defects are closed by motion before heat.

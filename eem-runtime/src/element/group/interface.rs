@@ -13,6 +13,7 @@ use crate::algebra::system::LinearSystem;
 #[cfg(feature = "gradients")]
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::Conjugates;
+use crate::element::ends::Ends;
 use crate::element::error::StateError;
 use crate::element::group::audit::Misfit;
 use crate::element::group::view::ElementGeneric;
@@ -234,9 +235,9 @@ pub(crate) trait ExplicitGroup<const D: usize>: Send + Sync {
     /// The elements without a scheme.
     fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>>;
 
-    /// Takes the component of each element and the index of the first temperature among the internal variables, and the places of
-    /// nodes by component and node; called once per scene.
-    fn join(&mut self, elements: (&[u32], usize), place_of: &dyn Fn(u32, u32) -> u32);
+    /// Takes the component and the places of the nodes of each element, and the index of the first temperature among the internal
+    /// variables; called once per scene.
+    fn join(&mut self, elements: (&[u32], &Ends), first_temperature: usize);
 
     /// Adds the forces and writes the rates at a stage.
     fn rates(&self, places: &mut [Place<D>], stage: &mut Stage) -> Result<(), StateError>;

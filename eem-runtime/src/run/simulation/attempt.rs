@@ -18,12 +18,14 @@ const HALVINGS: usize = 10;
 macro_rules! start {
     ($run:expr, $step:expr) => {
         crate::run::simulation::stepper::Start {
-            step: $step,
-            state: &$run.state,
-            conduction: &$run.conduction,
+            view: crate::step::explicit::View {
+                step: $step,
+                state: &$run.state,
+                conduction: &$run.conduction,
+                masses: &$run.masses,
+                least: &$run.least,
+            },
             loads: &$run.loads,
-            masses: &$run.masses,
-            least: &$run.least,
         }
     };
 }

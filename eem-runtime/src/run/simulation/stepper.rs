@@ -145,7 +145,7 @@ impl<const D: usize> Stepper<D> {
                     visit(group.elements_mut());
                 }
             }
-            Self::Explicit(explicit) => explicit.each_mut(visit),
+            Self::Explicit(explicit) => explicit.each_mut(&mut visit),
         }
     }
 }

@@ -20,12 +20,8 @@ use eem_material::number::digest::Digest;
 /// What an explicit scheme knows of it.
 const fn of_explicit<'a, const D: usize>(start: &Start<'a>) -> ExplicitView<'a, D> {
     ExplicitView {
-        step: start.step,
-        state: start.state,
-        conduction: start.conduction,
+        view: start.view,
         loads: start.loads,
-        masses: start.masses,
-        least: start.least,
     }
 }
 

@@ -3,40 +3,68 @@
 use core::mem;
 
 use super::components::Components;
-use super::memory::{Books, Scratch};
-use super::prescribed::Held;
+use super::memory::{Books, LoadSums, Motion, Scratch};
+use super::prescribed::Prescribed;
 use crate::element::conduction::Conduction;
 use crate::element::group::{Stage, Thermostat};
 use crate::element::layout::Layout;
+use crate::element::loads::StepLoads;
+use crate::step::control::LoadRounding;
 
-/// Internal variables, energies and entropies of all components.
+/// Internal variables, energies, entropies and targets of all components, and what acts on them.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each says something of its own"
+)]
 pub(crate) struct Accounts {
+    /// The dimension of space.
+    pub(super) dimension: usize,
     pub(super) components: Components,
     /// Whether each thermal slot has a path of heat or a dashpot.
     pub(super) produces: Vec<bool>,
-    /// The elements with thermostats.
-    pub(super) held: Vec<Held>,
+    pub(super) prescribed: Prescribed,
     /// Whether loads, moved anchors, thermostats or dashpots that lose heat act, so that integrals of the step change targets.
     pub(super) is_driven: bool,
+    /// Whether forces are functions of time.
+    pub(super) has_functions: bool,
+    /// The loads at the present stage, and at the start of the step.
+    pub(super) loads: StepLoads,
+    pub(super) start_loads: StepLoads,
+    /// The rounding of the loads of the last step where it was needed.
+    pub(super) rounding: LoadRounding,
+    /// Work of the loads on each component since the start of the step; empty without loads.
+    pub(super) load_sums: Vec<LoadSums>,
+    /// The number of places, entries of the stage vector, whose rates are kept: masses, and anchors where some are moved.
+    pub(super) kept_places: usize,
     /// The present stage; between steps, the end of the last one, with its rates.
     pub(super) stage: Stage,
     /// Targets and sums, now and before the step.
     pub(super) books: Books,
     pub(super) old_books: Books,
+    /// The motion of each component.
+    pub(super) motions: Vec<Motion>,
     pub(super) scratch: Scratch,
     /// Whether energy defects are closed by motion before heat.
     pub(super) is_motion_first: bool,
+    /// Whether rates and targets belong to the state, now and before the last attempt.
+    pub(super) is_ready: bool,
+    pub(super) was_ready: bool,
+    /// Whether the stage has left the start of a step that was not accepted, so that it has to be restored.
+    pub(super) has_left: bool,
+    /// How often all elements have been evaluated.
+    pub(super) evaluations: u64,
 }
 
 impl Accounts {
-    /// For a scene with this many nodes; `is_driven` says whether loads or moved anchors act.
+    /// For a scene with this many nodes in a space of this dimension.
     pub(super) fn new(
-        (mut components, held): (Components, Vec<Held>),
-        (layout, conduction, nodes): (&Layout, &Conduction, usize),
-        is_driven: bool,
+        (mut components, prescribed): (Components, Prescribed),
+        (loads, rounding, has_functions): (StepLoads, LoadRounding, bool),
+        (layout, conduction): (&Layout, &Conduction),
+        [nodes, dimension]: [usize; 2],
     ) -> Self {
         let mut thermostats = Vec::new();
-        for held in &held {
+        for held in &prescribed.held {
             thermostats.resize(layout.thermal, Thermostat::new(false));
             thermostats[held.slot] = Thermostat::new(true);
         }
@@ -47,16 +75,31 @@ impl Accounts {
         }
         let stage = Stage::new(layout, conduction.reservoirs.len(), thermostats);
         let loses = components.dashpots.iter().any(|of| of.slot.is_none());
-        let books = Books::new(&components);
+        let moves = !prescribed.moved.is_empty();
+        let has_loads = loads.has_total_force() || moves;
+        let (count, places) = (components.all.len(), components.nodes.len());
+        let books = Books::new(&components, dimension);
         Self {
+            dimension,
             produces: produces(&components, layout),
-            held,
-            is_driven: is_driven || loses || stage.has_thermostats,
+            prescribed,
+            is_driven: has_loads || loses || stage.has_thermostats,
+            has_functions,
+            start_loads: loads.clone(),
+            loads,
+            rounding,
+            load_sums: vec![LoadSums::default(); if has_loads { count } else { 0 }],
+            kept_places: if moves { places } else { components.masses },
             stage,
             old_books: books.clone(),
             books,
-            scratch: Scratch::new(&components, layout, nodes),
+            motions: vec![Motion::default(); count],
+            scratch: Scratch::new(&components, layout, [nodes, dimension]),
             is_motion_first: false,
+            is_ready: false,
+            was_ready: false,
+            has_left: false,
+            evaluations: 0,
             components,
         }
     }
@@ -70,12 +113,17 @@ impl Accounts {
 /// Whether each thermal slot has a path of heat or a dashpot.
 fn produces(components: &Components, layout: &Layout) -> Vec<bool> {
     let mut produces = vec![false; layout.thermal];
-    let ends = components.paths.iter().flat_map(|path| path.ends);
-    let dashpots = components.dashpots.iter();
-    for slot in ends.chain(dashpots.filter_map(|dashpot| dashpot.slot)) {
-        // Reservoirs come after the thermal slots.
-        if let Some(produces) = produces.get_mut(slot) {
-            *produces = true;
+    for path in &components.paths {
+        for end in path.ends {
+            // Reservoirs come after the thermal slots.
+            if let Some(produces) = produces.get_mut(end) {
+                *produces = true;
+            }
+        }
+    }
+    for dashpot in &components.dashpots {
+        if let Some(slot) = dashpot.slot {
+            produces[slot] = true;
         }
     }
     produces

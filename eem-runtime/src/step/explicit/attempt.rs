@@ -5,6 +5,7 @@ use super::demand::Demand;
 use super::error::Measure;
 use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
+use crate::element::group::points;
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use crate::step::outcome::Attempt;
@@ -19,16 +20,27 @@ impl Accounts {
         for (slot, theta) in next.temperatures.iter_mut().enumerate() {
             *theta = self.stage.theta(slot);
         }
-        for held in &self.held {
+        for held in &self.prescribed.held {
             let balance = &self.scratch.held[held.slot];
             next.book_thermostat(balance.heat, balance.given);
         }
+    }
+
+    /// Undoes the accepted step.
+    pub(crate) fn undo(&mut self) {
+        self.has_left = true;
+        self.is_ready = self.was_ready;
+    }
+
+    /// Makes the next step start from another state, for which rates and targets are evaluated again.
+    pub(crate) fn forget(&mut self) {
+        self.is_ready = false;
     }
 }
 
 impl<const D: usize> Explicit<D> {
     /// Writes the state after a step to `next`, from the state of the last accepted step or, after
-    /// [`forget`](Self::forget), from any state. The outcome is `None` if the error exceeds the demand.
+    /// [`forget`](Accounts::forget), from any state. The outcome is `None` if the error exceeds the demand.
     pub(crate) fn step(
         &mut self,
         view: &ExplicitView<'_, D>,
@@ -44,7 +56,10 @@ impl<const D: usize> Explicit<D> {
             // As before the attempt.
             self.is_ready = self.was_ready;
         }
-        attempt.map_err(|failure| self.explain(failure, view))
+        attempt.map_err(|failure| {
+            let (accounts, bodies) = self.parts(view);
+            accounts.explain(&bodies, failure)
+        })
     }
 
     #[inline]
@@ -54,15 +69,9 @@ impl<const D: usize> Explicit<D> {
         demand: Demand,
         next: &mut State,
     ) -> Result<Attempt, StepFailure> {
-        let [start, h] = [view.state.time.value, view.step];
-        let time = start + h;
         if self.is_driven {
-            self.prescribed
-                .evaluate(view.loads, [start, h], view.state)?;
-            for held in &mut self.accounts.held {
-                let from = view.state.temperatures[held.slot];
-                held.evaluate(&view.loads.temperatures, [start, h], from)?;
-            }
+            let (accounts, bodies) = self.parts(view);
+            accounts.prescribed.evaluate(&bodies)?;
         }
         let scales = self.approach(view, next)?;
         let measure = match &demand {
@@ -71,56 +80,51 @@ impl<const D: usize> Explicit<D> {
                 view,
                 tolerance,
                 scales,
+                dimension: D,
             }),
         };
-        let error = measure.as_ref().map_or(0.0, |by| self.estimate(by));
-        if !(error <= 1.0) {
-            return Ok(Attempt::rejected(error));
+        let mut error = 0.0;
+        if let Some(by) = &measure {
+            error = self.estimate(by, view);
+            if !(error <= 1.0) {
+                return Ok(Attempt::rejected(error));
+            }
         }
         self.book(view, next);
         self.close(view, (demand, scales), next)?;
-        let moved = measure.as_ref().map_or(0.0, |by| self.moved(by));
-        if !(moved <= 1.0) {
-            return Ok(Attempt::rejected(moved));
+        if let Some(by) = &measure {
+            let (accounts, bodies) = self.parts(view);
+            let moved = accounts.moved(&bodies, by);
+            if !(moved <= 1.0) {
+                return Ok(Attempt::rejected(moved));
+            }
         }
         if next.meters.are_on {
-            self.meter(h, next);
+            self.accounts.meter(view.step, next);
         }
-        let correction = self.correction(view, demand, time)?;
-        self.book_constant_loads(view, next);
+        let correction = self.correction(view, demand.largest_correction())?;
+        if self.loads.has_force() {
+            let (accounts, bodies) = self.parts(view);
+            accounts.book_constant_loads(&bodies, next);
+        }
         self.finish()?;
         self.store(next);
         self.books.largest_momentum = scales.momentum;
-        let outcome = Some(self.prove(correction, (view.state, time))?);
+        let outcome = Some(self.prove(correction, view)?);
         Ok(Attempt { error, outcome })
-    }
-
-    /// Undoes the accepted step.
-    pub(crate) fn undo(&mut self) {
-        self.has_left = true;
-        self.is_ready = self.was_ready;
-    }
-
-    /// Makes the next step start from another state, for which rates and targets are evaluated again.
-    pub(crate) fn forget(&mut self) {
-        self.is_ready = false;
     }
 
     /// The largest defect of all components before closing; an error unless it is small, or rounding.
     #[inline]
-    fn correction(
-        &mut self,
-        view: &ExplicitView<'_, D>,
-        demand: Demand,
-        time: f64,
-    ) -> Result<f64, StepFailure> {
+    fn correction(&mut self, view: &ExplicitView<'_, D>, limit: f64) -> Result<f64, StepFailure> {
         let mut largest = 0.0_f64;
-        let limit = demand.largest_correction();
         for index in 0..self.scratch.progress.len() {
             let progress = &self.scratch.progress[index];
             let (own, scale) = (progress.correction, progress.scale);
-            let is_rounding =
-                !(own.abs() <= limit) && (own * scale).abs() <= self.explained(index, scale, view);
+            let is_rounding = !(own.abs() <= limit) && {
+                let (accounts, bodies) = self.parts(view);
+                (own * scale).abs() <= accounts.explained(&bodies, index, scale)
+            };
             if !is_rounding && largest.abs() < own.abs() {
                 largest = own;
             }
@@ -131,7 +135,7 @@ impl<const D: usize> Explicit<D> {
         Err(StepFailure::Correction {
             correction: largest.abs(),
             limit,
-            time,
+            time: view.end(),
         })
     }
 
@@ -139,13 +143,14 @@ impl<const D: usize> Explicit<D> {
     #[inline]
     fn store(&mut self, next: &mut State) {
         let masses = &self.places[..self.components.masses];
-        for (place, &node) in masses.iter().zip(&self.components.nodes) {
-            next.positions.set_point(node, place.q());
-            next.momenta.set_point(node, place.p());
+        let nodes = &self.components.nodes[..masses.len()];
+        for at in 0..masses.len() {
+            next.positions.set_point(nodes[at], masses[at].q());
+            next.momenta.set_point(nodes[at], masses[at].p());
         }
         for moved in &self.prescribed.moved {
-            let end = &moved.positions[STAGES - 1];
-            next.positions.set_point(moved.node.index, end);
+            let end = &points::<D>(&moved.positions)[STAGES - 1];
+            next.positions.set_point(moved.node, end);
         }
         self.accounts.store(next);
     }

@@ -1,11 +1,12 @@
 //! Entropies and targets at the end of a step, from its integrals.
 
 use super::accounts::Accounts;
+use super::bodies::Bodies;
 use super::components::Support;
 use super::guard::{PathRates, guarded, mean_drop};
+use super::memory::momenta_of;
 use super::thermostats::shift_weights;
 use super::{Explicit, ExplicitView};
-use crate::algebra::bivector::planes;
 use crate::algebra::{add, difference, dot, scaled};
 use crate::element::state::State;
 use eem_material::number::scalar::Scalar;
@@ -130,6 +131,19 @@ impl Accounts {
             }
         }
     }
+
+    /// Adds the work `F·Δq` of constant loads, of which the closing has taken the potential: all of a constant force but the weight.
+    pub(super) fn book_constant_loads(&self, bodies: &dyn Bodies, next: &mut State) {
+        for at in 0..self.components.masses {
+            let place = bodies.at(at);
+            for (axis, gravity) in bodies.gravity().iter().enumerate() {
+                let load = place.force[axis] - place.mass * gravity;
+                if load != 0.0 {
+                    next.work.add(load * (place.q[axis] - place.start[0][axis]));
+                }
+            }
+        }
+    }
 }
 
 impl<const D: usize> Explicit<D> {
@@ -149,65 +163,48 @@ impl<const D: usize> Explicit<D> {
     }
 
     fn book_loads(&mut self, h: f64, next: &mut State) {
-        for anchor in self.components.masses..self.kept_places {
+        let accounts = &mut self.accounts;
+        let components = &accounts.components;
+        for anchor in components.masses..accounts.kept_places {
             let place = &self.places[anchor];
             let way = difference(place.q(), &place.past.start[0]);
-            let sums = &mut self.load_sums[self.accounts.components.of_place[anchor]];
+            let sums = &mut accounts.load_sums[components.of_place[anchor]];
             sums.work -= dot(&place.past.rates[0][1], &way) / h;
         }
-        let accounts = &mut self.accounts;
-        let targets = accounts.books.targets.iter_mut().zip(&mut self.momenta);
-        let targets = targets.zip(&mut accounts.scratch.progress);
-        let driven = targets.zip(&self.load_sums).zip(&accounts.components.all);
-        for ((((target, momenta), progress), sums), component) in driven {
+        for index in 0..self.impulses.len() {
+            let impulses = &self.impulses[index];
+            let component = &components.all[index];
             let masses = &self.places[component.masses.clone()];
+            let (sums, progress) = (
+                &accounts.load_sums[index],
+                &mut accounts.scratch.progress[index],
+            );
             if masses.is_empty() {
                 progress.carried = h * sums.effort;
             }
             progress.moment = h * sums.moment;
             let mut work = h * sums.work;
-            let is_pushed = sums.impulse.iter().any(|&sum| sum != 0.0);
+            let is_pushed = impulses.linear.iter().any(|&sum| sum != 0.0);
             if let (Support::Free, [mass], true) = (component.support, masses, is_pushed) {
                 // The change of its kinetic energy, `I·(p + I/2)/m`, follows from the impulse I alone: a quadrature of the power
                 // would have an error that nothing can close.
                 let mut impulse = mass.force;
-                add(&mut impulse, 1.0, &sums.impulse);
+                add(&mut impulse, 1.0, &impulses.linear);
                 let impulse = scaled(h, &impulse);
                 let mut mean = mass.past.start[1];
                 add(&mut mean, 0.5, &impulse);
                 let way = difference(mass.q(), &mass.past.start[0]);
                 work = dot(&impulse, &mean) * mass.per_mass() - dot(&mass.force, &way);
             }
-            target.energy.add(work);
+            accounts.books.targets[index].energy.add(work);
             next.work.add(work);
-            let mut push = |force: &[f64; D]| {
-                for (linear, &force) in momenta.linear.iter_mut().zip(force) {
-                    linear.add(h * force);
-                }
-            };
+            let targets = &mut accounts.books.momenta[momenta_of(index, D)];
             for place in masses {
-                push(&place.force);
-            }
-            push(&sums.impulse);
-            for plane in planes::<D>() {
-                momenta.angular.at_mut(plane).add(h * sums.torque.at(plane));
-            }
-        }
-    }
-
-    /// Adds the work `F·Δq` of constant loads, of which the closing has taken the potential: all of a constant force but the weight.
-    pub(super) fn book_constant_loads(&self, view: &ExplicitView<'_, D>, next: &mut State) {
-        if !self.loads.has_force() {
-            return;
-        }
-        for place in &self.places[..self.components.masses] {
-            let way = difference(place.q(), &place.past.start[0]);
-            for (axis, way) in way.iter().enumerate() {
-                let load = place.force[axis] - place.mass * view.loads.gravity[axis];
-                if load != 0.0 {
-                    next.work.add(load * way);
+                for (target, force) in targets.iter_mut().zip(&place.force) {
+                    target.add(h * force);
                 }
             }
+            impulses.each(&mut |at, impulse| targets[at].add(h * impulse));
         }
     }
 }

@@ -22,6 +22,7 @@ mod rigid;
 mod rounding;
 mod shape;
 
+use super::accounts::Accounts;
 use super::demand::{Demand, Scales};
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
@@ -48,6 +49,24 @@ enum Status {
     Failed,
 }
 
+impl Accounts {
+    /// Corrects the energy of open components by heat; returns whether forces are needed.
+    fn balance_all(&mut self, demand: Demand, next: &mut State) -> bool {
+        let mut needs_forces = false;
+        for index in 0..self.components.all.len() {
+            let status = if self.scratch.open[index] {
+                self.balance(index, demand, next)
+            } else {
+                Status::Closed
+            };
+            self.scratch.open[index] = status == Status::Changed;
+            self.scratch.needs_forces[index] = status == Status::NeedsForces;
+            needs_forces |= status == Status::NeedsForces;
+        }
+        needs_forces
+    }
+}
+
 impl<const D: usize> Explicit<D> {
     /// Closes all components.
     #[inline]
@@ -65,22 +84,13 @@ impl<const D: usize> Explicit<D> {
         self.share_productions();
         let mut has_looked = false;
         loop {
-            self.scratch.needs_forces.fill(false);
-            for index in 0..self.components.all.len() {
-                if !self.scratch.open[index] {
-                    continue;
-                }
-                let of = (index, &self.motions[index].energy);
-                let status = self.accounts.balance(of, demand, next);
-                self.scratch.open[index] = status == Status::Changed;
-                self.scratch.needs_forces[index] = status == Status::NeedsForces;
-            }
-            if self.scratch.needs_forces.contains(&true) {
+            if self.balance_all(demand, next) {
+                let (accounts, bodies) = self.parts(view);
                 if !has_looked {
-                    self.expect_stable_dashpots(view)?;
+                    accounts.expect_stable_dashpots(&bodies)?;
                     has_looked = true;
                 }
-                self.find_forces();
+                accounts.find_forces(&bodies);
                 for index in 0..self.components.all.len() {
                     if self.scratch.needs_forces[index] {
                         let status = self.reshape(index, (view, demand), next);
@@ -120,7 +130,7 @@ impl<const D: usize> Explicit<D> {
             next,
             energies: &mut scratch.energies,
         };
-        self.evaluations += 1;
+        self.accounts.evaluations += 1;
         for group in &mut self.groups {
             group.close(&mut view)?;
         }
@@ -128,16 +138,5 @@ impl<const D: usize> Explicit<D> {
             self.book_thermostats(explicit.state, next);
         }
         Ok(())
-    }
-
-    /// Finds the constant forces and those of elements in the components that need them: the negative gradient of the energy.
-    fn find_forces(&mut self) {
-        let scratch = &mut self.accounts.scratch;
-        for (force, place) in self.forces.iter_mut().zip(&self.places) {
-            *force = place.force;
-        }
-        for group in &self.groups {
-            group.pull(&scratch.needs_forces, &mut self.forces, &mut scratch.creep);
-        }
     }
 }

@@ -4,10 +4,9 @@
 //! that nothing is moved between bodies that do not touch.
 
 use core::ops::Range;
-use std::collections::{BTreeMap, BTreeSet};
 
 use super::guard::PerWeight;
-use crate::algebra::vector;
+use crate::algebra::{ascending, vector};
 use crate::element::conduction::{Conduction, Partner};
 use crate::element::ends::Ends;
 use crate::element::group::first_reservoir;
@@ -132,13 +131,13 @@ impl Sets {
 }
 
 impl Components {
-    /// The components of a scene.
+    /// The components of a scene, and the places of the nodes of each element.
     pub(super) fn new(
         masses: &Masses,
         elements: &Ends,
         layout: &Layout,
         conduction: &Conduction,
-    ) -> Self {
+    ) -> (Self, Ends) {
         let nodes = masses.len();
         let mut slot_elements = vec![0; layout.thermal];
         for (element, slots) in layout.elements.iter().enumerate() {
@@ -147,23 +146,25 @@ impl Components {
             }
         }
         let mut sets = Sets((0..nodes + elements.len()).collect());
-        for (element, ends) in elements.iter().enumerate() {
-            for node in ends.iter().map(|&node| node as usize) {
-                if masses.get(node).is_some() {
-                    sets.merge(node, nodes + element);
+        for element in 0..elements.len() {
+            for &node in elements.of(element) {
+                if masses.get(node as usize).is_some() {
+                    sets.merge(node as usize, nodes + element);
                 }
             }
         }
         for slot in 0..layout.thermal {
             for link in conduction.links(slot) {
                 if let Partner::Slot(partner) = link.partner {
-                    let [one, other] = [slot, partner].map(|slot| nodes + slot_elements[slot]);
-                    sets.merge(one, other);
+                    sets.merge(nodes + slot_elements[slot], nodes + slot_elements[partner]);
                 }
             }
         }
         let (numbers, count) = numbered(&mut sets, masses, nodes);
-        let of_element = &numbers[nodes..];
+        let mut of_element = Vec::with_capacity(elements.len());
+        for &component in &numbers[nodes..] {
+            of_element.push(compact(component));
+        }
         let mut components = Self {
             all: Vec::with_capacity(count),
             nodes: Vec::new(),
@@ -172,28 +173,14 @@ impl Components {
             slots: Vec::new(),
             paths: Vec::new(),
             shares: Vec::new(),
-            dashpots: dashpots(layout, of_element),
-            of_element: of_element
-                .iter()
-                .map(|&component| compact(component))
-                .collect(),
+            dashpots: dashpots(layout, &numbers[nodes..]),
+            of_element,
             elements: slot_elements,
             first_reservoir: first_reservoir(layout),
         };
         components.fill(&numbers, count, masses, conduction);
-        components.place_anchors(masses, elements);
-        components
-    }
-
-    /// A function that finds the place of a node from a component and the node.
-    pub(super) fn place_of(&self) -> impl Fn(u32, u32) -> u32 + use<> {
-        let owners = self
-            .of_place
-            .iter()
-            .copied()
-            .zip(self.nodes.iter().copied());
-        let places: BTreeMap<_, u32> = owners.zip(0..).collect();
-        move |component, node| places[&(component as usize, node as usize)]
+        let places = components.place_ends(masses, elements);
+        (components, places)
     }
 
     /// The component of a thermal slot.
@@ -220,26 +207,29 @@ impl Components {
 
     /// Lists masses, thermal slots and paths of heat, component after component.
     fn fill(&mut self, numbers: &[usize], count: usize, masses: &Masses, conduction: &Conduction) {
-        let (mut own_nodes, mut own_slots) = (vec![Vec::new(); count], vec![Vec::new(); count]);
-        for (node, mass) in masses.iter().enumerate() {
-            if let Some(mass) = mass {
-                own_nodes[numbers[node]].push((node, mass));
+        // Nodes, then slots.
+        let mut own = vec![Vec::new(); 2 * count];
+        for node in 0..masses.len() {
+            if masses.get(node).is_some() {
+                own[numbers[node]].push(node);
             }
         }
         for slot in 0..self.elements.len() {
-            own_slots[self.of_slot(slot)].push(slot);
+            own[count + self.of_slot(slot)].push(slot);
         }
-        for (component, (nodes, slots)) in own_nodes.into_iter().zip(own_slots).enumerate() {
+        for component in 0..count {
             let [mut mass, mut products] = [0.0; 2];
             let first = self.nodes.len();
-            for (node, own) in nodes {
+            for &node in &own[component] {
                 self.nodes.push(node);
                 self.of_place.push(component);
-                mass += own;
-                products += 1.0 + own.recip();
+                if let Some(own) = masses.get(node) {
+                    mass += own;
+                    products += 1.0 + own.recip();
+                }
             }
             let starts = [self.slots.len(), self.paths.len(), self.shares.len()];
-            for slot in slots {
+            for &slot in &own[count + component] {
                 self.slots.push(slot);
                 self.add_paths(component, slot, conduction);
             }
@@ -259,31 +249,57 @@ impl Components {
         self.masses = self.nodes.len();
     }
 
-    /// Gives each anchor a place for every component that it holds.
-    fn place_anchors(&mut self, masses: &Masses, elements: &Ends) {
-        let mut placed = BTreeSet::new();
-        for (element, ends) in elements.iter().enumerate() {
-            let component = self.of_element[element] as usize;
-            for node in ends.iter().map(|&node| node as usize) {
-                if masses.get(node).is_some() || !placed.insert((component, node)) {
-                    continue;
+    /// Gives each anchor a place for every component that it holds. Returns the places of the nodes of each element.
+    fn place_ends(&mut self, masses: &Masses, elements: &Ends) -> Ends {
+        let mut of_mass = vec![0; masses.len()];
+        for (place, &node) in self.nodes.iter().enumerate() {
+            of_mass[node] = place;
+        }
+        let mut held = Vec::new();
+        for element in 0..elements.len() {
+            for &node in elements.of(element) {
+                if masses.get(node as usize).is_none() {
+                    held.push([self.of_element[element] as usize, node as usize]);
                 }
-                let place = self.nodes.len();
-                self.nodes.push(node);
-                self.of_place.push(component);
-                let support = &mut self.all[component].support;
-                *support = match *support {
-                    Support::Free => Support::Anchor(place),
-                    Support::Anchor(_) | Support::Several => Support::Several,
-                };
             }
         }
+        let held = ascending(held);
+        let mut of_held = vec![usize::MAX; held.len()];
+        let mut places = Ends::none();
+        for element in 0..elements.len() {
+            let component = self.of_element[element] as usize;
+            places.push(elements.of(element).iter().map(|&node| {
+                let node = node as usize;
+                if masses.get(node).is_some() {
+                    return compact(of_mass[node]);
+                }
+                let pair = held.partition_point(|&pair| pair < [component, node]);
+                if of_held[pair] == usize::MAX {
+                    of_held[pair] = self.hold(component, node);
+                }
+                compact(of_held[pair])
+            }));
+        }
+        places
+    }
+
+    /// Gives an anchor a place for a component; returns the place.
+    fn hold(&mut self, component: usize, anchor: usize) -> usize {
+        let place = self.nodes.len();
+        self.nodes.push(anchor);
+        self.of_place.push(component);
+        let support = &mut self.all[component].support;
+        *support = match *support {
+            Support::Free => Support::Anchor(place),
+            Support::Anchor(_) | Support::Several => Support::Several,
+        };
+        place
     }
 
     /// Adds the paths that begin at a slot; each is linked at both ends, and added at the first one.
     fn add_paths(&mut self, component: usize, slot: usize, conduction: &Conduction) {
-        let links = conduction.links(slot).iter();
-        for (own, link) in links.zip(conduction.first_link(slot)..) {
+        let first = conduction.first_link(slot);
+        for (at, own) in conduction.links(slot).iter().enumerate() {
             let (far, share) = match own.partner {
                 Partner::Slot(partner) if partner < slot => continue,
                 Partner::Slot(partner) => (partner, None),
@@ -299,7 +315,7 @@ impl Components {
                 ends: [slot, far],
                 stores: [true, share.is_none()],
                 component,
-                link,
+                link: first + at,
                 share,
                 conductance: own.conductance,
                 temperatures: [[1.0; _]; 2],
@@ -310,10 +326,13 @@ impl Components {
 
     /// The index of a share of the last component, which is added unless it is there.
     fn index_of(&mut self, share: Share) -> usize {
-        let own = self.shares.iter().rev();
-        let mut own = own.take_while(|other| other.component == share.component);
-        if let Some(back) = own.position(|other| *other == share) {
-            return self.shares.len() - 1 - back;
+        for (index, other) in self.shares.iter().enumerate().rev() {
+            if other.component != share.component {
+                break;
+            }
+            if *other == share {
+                return index;
+            }
         }
         self.shares.push(share);
         self.shares.len() - 1

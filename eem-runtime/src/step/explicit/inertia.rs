@@ -44,7 +44,11 @@ impl<const D: usize> Moments<D> {
 
     #[inline]
     fn trace(&self) -> f64 {
-        (0..D).fold(0.0, |sum, axis| sum + self.0[axis][axis])
+        let mut sum = 0.0;
+        for (axis, row) in self.0.iter().enumerate() {
+            sum += row[axis];
+        }
+        sum
     }
 }
 
@@ -90,12 +94,13 @@ impl<const D: usize> Inertia<D> {
     /// The slowest rotation with an angular momentum; none in planes without inertia.
     #[inline]
     pub(super) fn solve(&self, momentum: &Bivector<f64, D>) -> Bivector<f64, D> {
-        let over = |j: f64, moment: f64| if moment <= 0.0 { 0.0 } else { j / moment };
         match self {
-            Self::Single(moment) => momentum.map(0.0, |j| over(j, *moment)),
+            Self::Single(moment) if *moment <= 0.0 => Bivector::zero(),
+            Self::Single(moment) => momentum.over(*moment),
             Self::Line { along, moment } => {
                 let turning = momentum.turn(along);
-                Bivector::wedge(along, &vector(|axis| over(turning[axis], *moment)))
+                let over = |j: f64| if *moment <= 0.0 { 0.0 } else { j / moment };
+                Bivector::wedge(along, &vector(|axis| over(turning[axis])))
             }
             Self::Space(inverse) => inverse.solve(momentum),
             Self::Principal(principal) => principal.solve(momentum),

@@ -1,23 +1,21 @@
 //! Memory of an explicit scheme: targets and sums that it keeps from step to step, and the workspace of a closing.
 
-use crate::algebra::bivector::{Bivector, planes};
+use core::ops::Range;
+
+use crate::algebra::bivector::Bivector;
 use crate::algebra::{add, dot, size};
-use crate::element::group::{Caloric, ComponentEnergy, Place, UnkeptEntropy};
+use crate::element::group::{Caloric, ComponentEnergy, UnkeptEntropy};
 use crate::element::layout::Layout;
 use crate::step::explicit::components::Components;
 use eem_material::number::compensated::{Sum, Total};
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Scalar;
 
-/// Work and impulses of the loads on a component in a step.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LoadSums<const D: usize> {
+/// Work of the loads on a component in a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LoadSums {
     /// J.
     pub(super) work: f64,
-    /// N s.
-    pub(super) impulse: [f64; D],
-    /// N m s.
-    pub(super) torque: Bivector<f64, D>,
     /// `Σ |b| |f·ẋ|` of moved anchors, W, and `Σ |b| Σ_m |ℓ'_m| |f − f⁰||x|`, J: times ε/2, what the rounding of their positions x
     /// does to their work.
     pub(super) effort: f64,
@@ -35,20 +33,14 @@ pub(super) struct Target {
     pub(super) lost: Sum,
 }
 
-/// The targets of the momenta of a component, to twice the precision.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Momenta<const D: usize> {
-    /// L, kg m/s.
-    pub(super) linear: [Sum; D],
-    /// J about the anchor, or about the centre of mass where there is none, kg m²/s.
-    pub(super) angular: Bivector<Sum, D>,
-}
-
 /// Values accumulated over the steps.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Books {
     /// Per component.
     pub(super) targets: Vec<Target>,
+    /// The targets of the momenta of each component, to twice the precision: L, kg m/s, then, plane by plane, J about the anchor, or
+    /// about the centre of mass where there is none, kg m²/s.
+    pub(super) momenta: Vec<Sum>,
     /// The entropy that each reservoir has received from each component, J/K.
     pub(super) shares: Vec<Sum>,
     /// The largest |p|₂ of all states so far, kg m/s.
@@ -68,31 +60,12 @@ impl Target {
     }
 }
 
-impl<const D: usize> Momenta<D> {
-    /// Zero.
-    pub(super) fn none() -> Self {
-        let zero = Sum::new(0.0);
-        Self {
-            linear: [zero; D],
-            angular: Bivector::filled(zero),
-        }
-    }
-
-    /// Calls a function for each of its sums.
-    pub(super) fn each_mut(&mut self, visit: &mut dyn FnMut(&mut Sum)) {
-        for linear in &mut self.linear {
-            visit(linear);
-        }
-        for plane in planes::<D>() {
-            visit(self.angular.at_mut(plane));
-        }
-    }
-}
-
 impl Books {
-    pub(super) fn new(components: &Components) -> Self {
+    pub(super) fn new(components: &Components, dimension: usize) -> Self {
+        let count = components.all.len();
         Self {
-            targets: vec![Target::none(); components.all.len()],
+            targets: vec![Target::none(); count],
+            momenta: vec![Sum::new(0.0); momenta_of(count, dimension).start],
             shares: vec![Sum::new(0.0); components.shares.len()],
             largest_momentum: 0.0,
             residue: 0.0,
@@ -103,6 +76,7 @@ impl Books {
     /// Sets all sums to zero.
     pub(super) fn clear(&mut self) {
         self.targets.fill(Target::none());
+        self.momenta.fill(Sum::new(0.0));
         self.shares.fill(Sum::new(0.0));
         (self.largest_momentum, self.residue) = (0.0, 0.0);
         self.terms = None;
@@ -113,6 +87,7 @@ impl Books {
     pub(super) fn copy_from(&mut self, other: &Self, change_targets: bool) {
         if change_targets {
             self.targets.copy_from_slice(&other.targets);
+            self.momenta.copy_from_slice(&other.momenta);
         }
         self.shares.copy_from_slice(&other.shares);
         self.largest_momentum = other.largest_momentum;
@@ -121,17 +96,11 @@ impl Books {
     }
 }
 
-impl<const D: usize> LoadSums<D> {
-    pub(super) fn none() -> Self {
-        Self {
-            work: 0.0,
-            impulse: [0.0; D],
-            torque: Bivector::zero(),
-            effort: 0.0,
-            noise: 0.0,
-            moment: 0.0,
-        }
-    }
+/// The indices of the targets of the momenta of a component.
+#[inline]
+pub(super) const fn momenta_of(index: usize, dimension: usize) -> Range<usize> {
+    let count = dimension * (dimension + 1) / 2;
+    index * count..index * count + count
 }
 
 /// Targets, the entropies that reservoirs have received from each component, and the rates of the present state, bit for
@@ -196,7 +165,7 @@ pub(super) struct Progress {
     pub(super) has_heated: bool,
     /// The defect of the energy, J.
     pub(super) defect: f64,
-    /// [`defect_of`](super::Explicit::defect_of), while nothing has changed since.
+    /// [`defect_of`](super::accounts::Accounts::defect_of), while nothing has changed since.
     pub(super) present: Option<[f64; 2]>,
     /// The magnitude of the terms of the energy where the closing began, with what was carried; zero before, J.
     pub(super) scale: f64,
@@ -235,21 +204,20 @@ pub(super) struct Progress {
     pub(super) is_rigid: bool,
 }
 
-/// Sums over the masses of a component.
+/// The momenta of a component.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Motion<const D: usize> {
+pub(super) struct Momenta<const D: usize> {
     /// L, kg m/s, and J about the origin of the component, kg m²/s.
     pub(super) linear: [f64; D],
     pub(super) angular: Bivector<f64, D>,
+}
+
+/// Other sums over the masses of a component.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Motion {
     /// `Σ |p|` and `Σ |q||p|` by sums of magnitudes, with coordinates q or arms about the origin, whichever are larger:
     /// positions are rounded to ε of their coordinates.
     pub(super) terms: [f64; 2],
-    pub(super) energy: MotionEnergy,
-}
-
-/// The part of the energy of a component that its masses have.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct MotionEnergy {
     /// Kinetic energy and that of constant forces, `−F·q`, and the magnitude of its terms, J.
     pub(super) value: Total,
     pub(super) magnitude: f64,
@@ -288,6 +256,8 @@ pub(super) struct Scratch {
     /// Whether a component has to be evaluated, and whether its forces are needed.
     pub(super) open: Vec<bool>,
     pub(super) needs_forces: Vec<bool>,
+    /// The forces of the elements on places, where they are needed, a vector each, N.
+    pub(super) forces: Vec<f64>,
     /// Per thermal slot.
     pub(super) slots: Vec<Caloric>,
     /// An element whose stored entropy does not match its temperature after the closing, if there is one.
@@ -316,50 +286,69 @@ impl Progress {
     }
 }
 
-impl<const D: usize> Motion<D> {
+impl<const D: usize> Momenta<D> {
     /// Of no masses.
     pub(super) fn none() -> Self {
         Self {
             linear: [0.0; D],
             angular: Bivector::zero(),
-            terms: [0.0; 2],
-            energy: MotionEnergy::default(),
         }
     }
 
-    /// Adds the momenta of a mass at the end of an arm.
+    /// Replaces each component by a function of its index and of its value: those of L, then, plane by plane, those of J.
     #[inline]
-    pub(super) fn add_momenta(&mut self, place: &Place<D>, arm: &[f64; D]) {
-        let p = place.p();
+    pub(super) fn change(&mut self, mut of: impl FnMut(usize, f64) -> f64) {
+        for axis in 0..D {
+            self.linear[axis] = of(axis, self.linear[axis]);
+        }
+        let mut index = D;
+        for i in 0..D {
+            for j in i + 1..D {
+                let own = self.angular.at_mut([i, j]);
+                *own = of(index, *own);
+                index += 1;
+            }
+        }
+    }
+
+    /// Calls a function with the index and the value of each component.
+    pub(super) fn each(mut self, visit: &mut dyn FnMut(usize, f64)) {
+        self.change(|at, own| {
+            visit(at, own);
+            own
+        });
+    }
+
+    /// Adds a momentum at the end of an arm.
+    #[inline]
+    pub(super) fn add(&mut self, p: &[f64; D], arm: &[f64; D]) {
         add(&mut self.linear, 1.0, p);
         self.angular.add(1.0, &Bivector::wedge(arm, p));
     }
+}
 
-    /// Adds their terms.
+impl Motion {
+    /// Adds the terms of the momenta of a mass at the end of an arm.
     #[inline]
-    pub(super) fn add_terms(&mut self, place: &Place<D>, arm: &[f64; D]) {
+    pub(super) fn add_terms(&mut self, [q, p]: [&[f64]; 2], arm: &[f64]) {
         // Below the smallest normal number, rounding is that of this number.
-        let momentum = size(place.p()) + f64::MIN_POSITIVE;
+        let momentum = size(p) + f64::MIN_POSITIVE;
         self.terms[0] += momentum;
-        self.terms[1] += farther(arm, place.q()) * momentum;
+        self.terms[1] += farther(arm, q) * momentum;
     }
 
-    /// Adds momenta and energy of a mass at the end of an arm.
+    /// Adds the energy of a mass under a constant force.
     #[inline]
-    pub(super) fn add(&mut self, place: &Place<D>, arm: &[f64; D]) {
-        self.add_momenta(place, arm);
-        self.add_terms(place, arm);
-        let (q, p) = (place.q(), place.p());
-        let kinetic = 0.5 * dot(p, p) * place.per_mass();
-        let energy = &mut self.energy;
-        energy.value.add(kinetic);
-        energy.kinetic += kinetic;
-        energy.magnitude += kinetic;
-        for (&force, &q) in place.force.iter().zip(q) {
+    pub(super) fn add_energy(&mut self, [q, p]: [&[f64]; 2], force: &[f64], per_mass: f64) {
+        let kinetic = 0.5 * dot(p, p) * per_mass;
+        self.value.add(kinetic);
+        self.kinetic += kinetic;
+        self.magnitude += kinetic;
+        for (&force, &q) in force.iter().zip(q) {
             if force != 0.0 {
                 let potential = -force * q;
-                energy.value.add(potential);
-                energy.magnitude += potential.abs();
+                self.value.add(potential);
+                self.magnitude += potential.abs();
             }
         }
     }
@@ -367,7 +356,11 @@ impl<const D: usize> Motion<D> {
 
 impl Scratch {
     /// A workspace for a scene with this many nodes.
-    pub(super) fn new(components: &Components, layout: &Layout, nodes: usize) -> Self {
+    pub(super) fn new(
+        components: &Components,
+        layout: &Layout,
+        [nodes, dimension]: [usize; 2],
+    ) -> Self {
         let (count, thermal) = (components.all.len(), layout.thermal);
         Self {
             progress: vec![Progress::none(); count],
@@ -375,6 +368,7 @@ impl Scratch {
             energies: vec![ComponentEnergy::default(); count],
             open: vec![false; count],
             needs_forces: vec![false; count],
+            forces: vec![0.0; components.nodes.len() * dimension],
             slots: vec![Caloric::default(); thermal],
             unkept: None,
             held: vec![HeldBalance::default(); thermal],

@@ -30,10 +30,12 @@ impl<const D: usize> Origin<D> {
 
     /// The centre of some masses with this sum.
     fn center(masses: &[Place<D>], mass: f64) -> Self {
-        let mut sum = [0.0; D];
-        let base = masses.first().map_or(sum, |first| *first.q());
-        for place in masses.iter().skip(1) {
-            add(&mut sum, place.mass, &difference(place.q(), &base));
+        let [mut base, mut sum] = [[0.0; D]; 2];
+        if let [first, others @ ..] = masses {
+            base = *first.q();
+            for place in others {
+                add(&mut sum, place.mass, &difference(place.q(), &base));
+            }
         }
         let offset = vector(|axis| sum[axis] / mass);
         Self { base, offset }

@@ -5,17 +5,13 @@
 //! order above that of the scheme.
 
 use core::f64::consts::PI;
-use std::collections::BTreeMap;
 
 use crate::algebra::vector;
-use crate::element::group::points;
-use crate::element::handle::{Element, Node};
-use crate::element::layout::Layout;
-use crate::element::state::State;
-use crate::scene::loads::{Loads, TemperatureCourse};
 use crate::step::error::StepFailure;
+use crate::step::explicit::bodies::Bodies;
 use crate::step::explicit::components::Components;
 use crate::step::explicit::tableau::{STAGES, TIMES};
+use crate::step::explicit::view::View;
 use crate::step::timed::TimedLoad;
 use eem_material::number::scalar::{Scalar, is_positive};
 
@@ -62,21 +58,20 @@ impl Interpolation {
 
 /// An anchor that is moved.
 #[derive(Clone, Debug)]
-pub(super) struct Moved<const D: usize> {
-    pub(super) node: Node,
+pub(super) struct Moved {
+    pub(super) node: usize,
     /// Its places in the stage vector.
     pub(super) places: Vec<usize>,
     /// The index of its motion in the scene.
     motion: usize,
-    /// At the stages, m and m/s.
-    pub(super) positions: [[f64; D]; STAGES],
-    pub(super) velocities: [[f64; D]; STAGES],
+    /// At the stages, a vector each, m and m/s.
+    pub(super) positions: Vec<f64>,
+    pub(super) velocities: Vec<f64>,
 }
 
 /// An element with a thermostat.
 #[derive(Clone, Debug)]
 pub(super) struct Held {
-    element: Element,
     pub(super) slot: usize,
     /// The index of its temperature in the scene.
     temperature: usize,
@@ -84,98 +79,96 @@ pub(super) struct Held {
     pub(super) temperatures: [f64; STAGES],
 }
 
-/// The elements with thermostats.
-pub(super) fn held(courses: &[(Element, TemperatureCourse)], layout: &Layout) -> Vec<Held> {
-    let slots = courses.iter();
-    let all = last_of_each(slots.map(|(of, _)| layout.elements[of.index()].thermal));
-    let all = all.map(|(temperature, slot)| Held {
-        element: courses[temperature].0,
-        slot,
-        temperature,
-        temperatures: [1.0; STAGES],
-    });
-    all.collect()
-}
-
-/// All anchors that are moved in a scene.
+/// All anchors that are moved in a scene, and all elements with thermostats.
 #[derive(Clone, Debug)]
-pub(super) struct Prescribed<const D: usize> {
+pub(super) struct Prescribed {
     /// `None` if no anchor is moved.
     interpolation: Option<Interpolation>,
-    pub(super) moved: Vec<Moved<D>>,
+    pub(super) moved: Vec<Moved>,
+    pub(super) held: Vec<Held>,
+    /// The positions of an anchor at the points, m.
+    positions: Vec<f64>,
 }
 
-impl<const D: usize> Prescribed<D> {
-    pub(super) fn new(loads: &Loads<D>, components: &Components) -> Self {
-        let mut places: BTreeMap<_, Vec<_>> = BTreeMap::new();
-        let anchors = components.masses..components.nodes.len();
-        for place in anchors.filter(|_| !loads.motions.is_empty()) {
-            places
-                .entry(components.nodes[place])
-                .or_default()
-                .push(place);
+impl Prescribed {
+    /// For motions of these nodes, and temperatures of these thermal slots.
+    pub(super) fn new(
+        [nodes, slots]: [&[Option<usize>]; 2],
+        components: &Components,
+        dimension: usize,
+    ) -> Self {
+        let (mut moved, mut at_node) = (Vec::new(), Vec::new());
+        for (motion, node) in last_of_each(nodes) {
+            at_node.resize(at_node.len().max(node + 1), None);
+            at_node[node] = Some(moved.len());
+            moved.push(Moved {
+                node,
+                places: Vec::new(),
+                motion,
+                positions: vec![0.0; STAGES * dimension],
+                velocities: vec![0.0; STAGES * dimension],
+            });
         }
-        let motions = loads.motions.iter();
-        let moved = last_of_each(motions.map(|(node, _)| Some(node.index)));
-        let moved = moved.map(|(motion, node)| Moved {
-            node: loads.motions[motion].0,
-            places: places.remove(&node).unwrap_or_default(),
-            motion,
-            positions: [[0.0; D]; STAGES],
-            velocities: [[0.0; D]; STAGES],
-        });
-        let moved: Vec<_> = moved.collect();
+        for place in components.masses..components.nodes.len() {
+            if let Some(&Some(index)) = at_node.get(components.nodes[place]) {
+                moved[index].places.push(place);
+            }
+        }
+        let mut held = Vec::new();
+        for (temperature, slot) in last_of_each(slots) {
+            held.push(Held {
+                slot,
+                temperature,
+                temperatures: [1.0; STAGES],
+            });
+        }
         Self {
             interpolation: (!moved.is_empty()).then(Interpolation::new),
             moved,
+            held,
+            positions: vec![0.0; POINTS * dimension],
         }
     }
 
-    /// Evaluates all motions at the stages of a step of size `step` that begins at `time`.
-    pub(super) fn evaluate(
-        &mut self,
-        loads: &Loads<D>,
-        [time, step]: [f64; 2],
-        old: &State,
-    ) -> Result<(), StepFailure> {
+    /// Evaluates all of them at the stages of a step.
+    pub(super) fn evaluate(&mut self, bodies: &dyn Bodies) -> Result<(), StepFailure> {
         if let Some(interpolation) = &self.interpolation {
             for moved in &mut self.moved {
-                let from = points::<D>(old.positions.values())[moved.node.index];
-                moved.evaluate(interpolation, loads, ([time, step], &from))?;
+                moved.evaluate(interpolation, bodies, &mut self.positions)?;
             }
+        }
+        for held in &mut self.held {
+            held.evaluate(bodies)?;
         }
         Ok(())
     }
 }
 
 /// The indices of loads with what they act on: of several that act on the same the last one counts, as in implicit schemes.
-fn last_of_each(
-    targets: impl Iterator<Item = Option<usize>> + Clone,
-) -> impl Iterator<Item = (usize, usize)> {
-    let of = targets
-        .enumerate()
-        .filter_map(|(load, target)| Some((load, target?)));
-    let mut last = BTreeMap::new();
-    for (load, target) in of.clone() {
-        last.insert(target, load);
+fn last_of_each(targets: &[Option<usize>]) -> Vec<(usize, usize)> {
+    let (mut last, mut all) = (Vec::new(), Vec::new());
+    for (load, target) in targets.iter().enumerate() {
+        if let &Some(target) = target {
+            last.resize(last.len().max(target + 1), 0);
+            last[target] = load;
+            all.push((load, target));
+        }
     }
-    of.filter(move |(load, target)| last.get(target) == Some(load))
+    all.retain(|&(load, target)| last[target] == load);
+    all
 }
 
 impl Held {
-    /// Evaluates its temperature at the stages of a step of size `step` that begins at `time`, from the old temperature.
-    pub(super) fn evaluate(
-        &mut self,
-        courses: &[(Element, TemperatureCourse)],
-        [time, step]: [f64; 2],
-        from: f64,
-    ) -> Result<(), StepFailure> {
-        let (_, course) = &courses[self.temperature];
+    /// Evaluates its temperature at the stages of a step, from the old temperature.
+    fn evaluate(&mut self, bodies: &dyn Bodies) -> Result<(), StepFailure> {
+        let (element, course) = &bodies.temperatures()[self.temperature];
+        let View { step, state, .. } = *bodies.view();
+        let (time, from) = (state.time.value, state.temperatures[self.slot]);
         for (theta, &share) in self.temperatures.iter_mut().zip(&TIMES) {
             let at = time + share * step;
             let value = course.at(at, from, share);
             if !is_positive(value) {
-                let load = TimedLoad::Temperature(self.element);
+                let load = TimedLoad::Temperature(*element);
                 return Err(StepFailure::of_load(load, 0, value, at));
             }
             *theta = value;
@@ -184,41 +177,50 @@ impl Held {
     }
 }
 
-impl<const D: usize> Moved<D> {
+impl Moved {
+    /// There is memory for its positions at the points.
     fn evaluate(
         &mut self,
         interpolation: &Interpolation,
-        loads: &Loads<D>,
-        ([time, step], from): ([f64; 2], &[f64; D]),
+        bodies: &dyn Bodies,
+        positions: &mut [f64],
     ) -> Result<(), StepFailure> {
-        let mut positions = [[0.0; D]; POINTS];
-        for (position, &share) in positions.iter_mut().zip(&interpolation.points) {
+        let View { step, state, .. } = *bodies.view();
+        let time = state.time.value;
+        let dimension = positions.len() / POINTS;
+        for (found, &share) in positions
+            .chunks_exact_mut(dimension)
+            .zip(&interpolation.points)
+        {
             let at = time + share * step;
-            let found = loads.motions[self.motion]
-                .1
-                .position(at, from, share * step);
-            for axis in 0..D {
-                position[axis] = found[axis];
-                if !found[axis].is_finite() {
-                    let load = TimedLoad::Motion(self.node);
-                    return Err(StepFailure::of_load(load, axis, found[axis], at));
-                }
+            let node = bodies.find_position(self.motion, [at, share * step], found);
+            if let Some(axis) = found.iter().position(|value| !value.is_finite()) {
+                let load = TimedLoad::Motion(node);
+                return Err(StepFailure::of_load(load, axis, found[axis], at));
             }
         }
-        let (start, end) = (positions[0], positions[POINTS - 1]);
-        for stage in 0..STAGES {
-            for axis in 0..D {
+        for (index, (position, velocity)) in self
+            .positions
+            .iter_mut()
+            .zip(&mut self.velocities)
+            .enumerate()
+        {
+            let (stage, axis) = (index / dimension, index % dimension);
+            let start = positions[axis];
+            let (mut value, mut slope) = (0.0, 0.0);
+            for m in 1..POINTS {
                 // Differences do not lose digits to the distance from the origin.
-                let from_start = |m: usize| positions[m][axis] - start[axis];
-                let sum = |row: &[f64; POINTS]| {
-                    (1..POINTS).fold(0.0, |sum, m| sum + row[m] * from_start(m))
-                };
-                self.positions[stage][axis] = start[axis] + sum(&interpolation.values[stage]);
-                self.velocities[stage][axis] = sum(&interpolation.slopes[stage]) / step;
+                let from_start = positions[m * dimension + axis] - start;
+                value += interpolation.values[stage][m] * from_start;
+                slope += interpolation.slopes[stage][m] * from_start;
             }
+            *position = match stage {
+                0 => start,
+                _ if stage == STAGES - 1 => positions[(POINTS - 1) * dimension + axis],
+                _ => start + value,
+            };
+            *velocity = slope / step;
         }
-        self.positions[0] = start;
-        self.positions[STAGES - 1] = end;
         Ok(())
     }
 }

@@ -2,14 +2,14 @@
 
 use core::mem;
 
-use super::Explicit;
 use super::accounts::Accounts;
+use super::bodies::Bodies;
 use super::closing::FROZEN;
 use super::components::Support;
-use crate::algebra::bivector::planes;
-use crate::algebra::largest;
+use super::memory::momenta_of;
+use super::{Explicit, ExplicitView};
+use crate::algebra::{dot, largest};
 use crate::element::group::UnkeptEntropy;
-use crate::element::state::State;
 use crate::step::certificate::is_wide;
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
@@ -21,19 +21,48 @@ use eem_material::number::scalar::Scalar;
 const ROUNDINGS: f64 = 64.0;
 
 impl Accounts {
-    /// Keeps the sums of a step, and proves that no entropy is lost: the residue of the energy, the part of it that is kept, the
-    /// contribution to the bound, and the terms of the energies; the last two at the start of the step, too.
+    /// Adds the energy of a component in the new state to what the [`outcome`](Self::outcome) asks for; an error unless its defect is
+    /// rounding.
+    #[inline]
+    fn prove_energy(
+        &mut self,
+        index: usize,
+        [residue, forgiven, counted, own]: &mut [f64; 4],
+        time: f64,
+    ) -> Result<(), StepFailure> {
+        let present = self.scratch.progress[index].present;
+        let [defect, magnitude] = present.unwrap_or_else(|| self.defect_of(index));
+        let progress = &self.scratch.progress[index];
+        let magnitude = magnitude + FROZEN / ROUNDINGS * progress.granularity;
+        // What the bound of the step counts with the energies of both ends.
+        let values = FROZEN / ROUNDINGS * progress.values;
+        let bound = ROUNDINGS * f64::EPSILON * (magnitude + values);
+        expect(Law::Energy, [progress.debt - defect, bound], time)?;
+        *residue -= defect;
+        if self.is_driven && progress.is_forgiven {
+            // The rounding of this step is not that of later ones.
+            self.books.targets[index].energy.add(-defect);
+            *forgiven += defect;
+        }
+        let energy = &self.scratch.energies[index];
+        *counted += magnitude + energy.excess;
+        *own += self.motions[index].kinetic + energy.terms;
+        Ok(())
+    }
+
+    /// Keeps the sums of a step, and proves that no entropy is lost: the residue of the energy, the part of it that is no residue of later
+    /// steps, the contribution to the bound, and the terms of the energies; the last two at the start of the step, too.
     fn outcome(
         &mut self,
         correction: f64,
-        ([residue, kept, counted, own], [old, mut terms]): ([f64; 4], [f64; 2]),
-        (is_restart, time): (bool, f64),
+        [residue, forgiven, counted, own]: [f64; 4],
+        ([old, mut terms], time): ([f64; 2], f64),
     ) -> Result<Outcome, StepFailure> {
         let rounding = ROUNDINGS * f64::EPSILON;
         terms += own;
         let mut bound = rounding * (old + counted);
-        let old_residue = mem::replace(&mut self.books.residue, kept);
-        if is_restart {
+        let old_residue = mem::replace(&mut self.books.residue, residue + forgiven);
+        if self.books.terms.is_none() {
             // After a restart the terms are not those of the step that left the old residue.
             bound += old_residue.abs();
         }
@@ -62,6 +91,26 @@ impl Accounts {
             correction,
         })
     }
+
+    /// The magnitude by which the state at the start of a step enters the bound of the energy, and its energy terms, J.
+    #[cold]
+    fn terms_at_start(&self, bodies: &dyn Bodies) -> [f64; 2] {
+        let [mut motion, mut potential] = [0.0; 2];
+        for at in 0..self.components.masses {
+            let place = bodies.at(at);
+            let [q, p] = place.start;
+            motion += 0.5 * dot(p, p) * place.per_mass;
+            for (force, q) in place.force.iter().zip(q) {
+                potential += (force * q).abs();
+            }
+        }
+        let [mut counted, mut terms] = [motion + potential, motion];
+        for energy in &bodies.view().state.energies {
+            counted += energy.magnitude + energy.excess;
+            terms += energy.terms;
+        }
+        [counted, terms]
+    }
 }
 
 impl<const D: usize> Explicit<D> {
@@ -70,39 +119,22 @@ impl<const D: usize> Explicit<D> {
     pub(super) fn prove(
         &mut self,
         correction: f64,
-        (start, time): (&State, f64),
+        view: &ExplicitView<'_, D>,
     ) -> Result<Outcome, StepFailure> {
+        let time = view.end();
         if let Some(UnkeptEntropy { element, sizes }) = self.scratch.unkept {
             return Err(Law::KeptEntropy.not_kept(sizes, Some(element), time));
         }
-        let rounding = ROUNDINGS * f64::EPSILON;
-        let known = self.books.terms;
-        let [old, terms] = known.unwrap_or_else(|| self.terms_at_start(start));
-        let [mut residue, mut counted, mut own, mut forgiven] = [0.0; 4];
+        let mut sums = [0.0; 4];
         for index in 0..self.components.all.len() {
-            let present = self.scratch.progress[index].present;
-            let [defect, magnitude] =
-                present.unwrap_or_else(|| self.defect_of(index, &self.motions[index].energy));
-            let progress = &self.scratch.progress[index];
-            let magnitude = magnitude + FROZEN / ROUNDINGS * progress.granularity;
-            // What the bound of the step counts with the energies of both ends.
-            let values = FROZEN / ROUNDINGS * progress.values;
-            let bound = rounding * (magnitude + values);
-            expect(Law::Energy, [progress.debt - defect, bound], time)?;
+            self.prove_energy(index, &mut sums, time)?;
             self.prove_momenta(index, time)?;
-            residue -= defect;
-            if self.is_driven && self.scratch.progress[index].is_forgiven {
-                // The rounding of this step is not that of later ones.
-                self.books.targets[index].energy.add(-defect);
-                forgiven += defect;
-            }
-            let energy = &self.scratch.energies[index];
-            counted += magnitude + energy.excess;
-            own += self.motions[index].energy.kinetic + energy.terms;
         }
-        let sums = [residue, residue + forgiven, counted, own];
-        self.accounts
-            .outcome(correction, (sums, [old, terms]), (known.is_none(), time))
+        let start = self.books.terms.unwrap_or_else(|| {
+            let (accounts, bodies) = self.parts(view);
+            accounts.terms_at_start(&bodies)
+        });
+        self.accounts.outcome(correction, sums, (start, time))
     }
 
     /// An error unless the conserved momenta of a component are their targets, in all planes.
@@ -113,16 +145,19 @@ impl<const D: usize> Explicit<D> {
             return Ok(());
         }
         let rounding = ROUNDINGS * f64::EPSILON;
-        let (linear, angular) = self.missing_momenta(index);
+        let missing = self.missing_momenta(index);
         // Sums of magnitudes are at most √D times a length.
         let [momenta, moments] = self.motions[index].terms;
-        let dimension = (0..D).fold(0.0, |sum, _| sum + 1.0);
+        let mut dimension = 0.0;
+        for _ in 0..D {
+            dimension += 1.0;
+        }
         if support == Support::Free {
             let bound = rounding * (momenta / dimension.sqrt());
-            expect(Law::LinearMomentum, [largest(&linear), bound], time)?;
+            expect(Law::LinearMomentum, [largest(&missing.linear), bound], time)?;
         }
         let own = rounding * (moments / dimension);
-        let left = angular.largest();
+        let left = missing.angular.largest();
         let mut bound = own + rounding * (self.scratch.progress[index].moment / dimension);
         if !(left <= own) {
             bound += rounding * (self.moment_at_start(index) / dimension);
@@ -134,10 +169,12 @@ impl<const D: usize> Explicit<D> {
         let is_half_of_digits =
             || left > f64::EPSILON.sqrt() * self.angular_target(index).largest();
         if left > own || (D > 2 && is_half_of_digits()) {
-            for plane in planes::<D>() {
-                let left = angular.at(plane);
-                self.momenta[index].angular.at_mut(plane).add(-left);
-            }
+            let targets = &mut self.books.momenta[momenta_of(index, D)];
+            missing.each(&mut |at, left| {
+                if at >= D {
+                    targets[at].add(-left);
+                }
+            });
         }
         Ok(())
     }

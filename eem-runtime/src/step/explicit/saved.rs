@@ -2,36 +2,32 @@
 
 use super::Explicit;
 use super::accounts::Accounts;
-use super::memory::SavedExplicit;
+use super::memory::{SavedExplicit, momenta_of};
 use crate::element::state::State;
 use eem_material::number::compensated::Sum;
 
-impl<const D: usize> Explicit<D> {
-    /// Everything besides the state that the next step depends on.
-    pub(crate) fn save(&self, state: &State) -> SavedExplicit {
+impl Accounts {
+    /// Everything besides the state that the next step depends on, given the rates of places.
+    fn save(&self, state: &State, mut rates: Vec<f64>) -> SavedExplicit {
         // After an attempt that was not accepted, what was before it; targets are kept only where steps change them.
         let (sums, own) = if self.has_left {
             (&self.old_books, &self.start_loads)
         } else {
             (&self.books, &self.loads)
         };
-        let (books, momenta) = if self.has_left && self.is_driven {
-            (&self.old_books, &self.old_momenta)
+        let books = if self.has_left && self.is_driven {
+            &self.old_books
         } else {
-            (&self.books, &self.momenta)
+            &self.books
         };
         let mut targets = Vec::new();
-        for (target, momenta) in books.targets.iter().zip(momenta) {
-            targets.extend([target.energy, target.lost]);
-            momenta.clone().each_mut(&mut |sum| targets.push(*sum));
+        for (index, target) in books.targets.iter().enumerate() {
+            targets.extend_from_slice(&[target.energy, target.lost]);
+            targets.extend_from_slice(&books.momenta[momenta_of(index, self.dimension)]);
         }
-        let mut rates = Vec::new();
         let mut keep = |[start, now]: [&mut f64; 2]| {
             rates.push(if self.has_left { *start } else { *now });
         };
-        for place in &self.places[..self.kept_places] {
-            place.clone().each_rate(&mut keep);
-        }
         self.stage.clone().each_rate(&mut keep);
         let mut saved = SavedExplicit {
             is_new: !self.is_ready,
@@ -42,7 +38,7 @@ impl<const D: usize> Explicit<D> {
             largest_momentum: sums.largest_momentum,
             residue: sums.residue,
             rates,
-            loads: own.total_force.iter().chain(&own.force).copied().collect(),
+            loads: [&own.total_force[..], &own.force].concat(),
         };
         if saved.is_new {
             saved.clear();
@@ -50,41 +46,57 @@ impl<const D: usize> Explicit<D> {
         saved
     }
 
-    /// Continues from a checkpoint of the same scene.
-    pub(crate) fn restore(&mut self, saved: &SavedExplicit) {
+    /// Takes all but the rates of a checkpoint of the same scene.
+    fn restore(&mut self, saved: &SavedExplicit) {
         self.is_ready = !saved.is_new;
         self.has_left = true;
         self.is_motion_first = saved.is_motion_first;
-        let Accounts {
-            books, old_books, ..
-        } = &mut self.accounts;
+        let books = &mut self.books;
         let mut sums = saved.targets.iter();
         let mut take = |own: &mut Sum| {
             if let Some(sum) = sums.next() {
                 *own = *sum;
             }
         };
-        for (target, momenta) in books.targets.iter_mut().zip(&mut self.momenta) {
+        for (index, target) in books.targets.iter_mut().enumerate() {
             take(&mut target.energy);
             take(&mut target.lost);
-            momenta.each_mut(&mut take);
+            let momenta = &mut books.momenta[momenta_of(index, self.dimension)];
+            momenta.iter_mut().for_each(&mut take);
         }
-        self.old_momenta.copy_from_slice(&self.momenta);
         books.shares.copy_from_slice(&saved.shares);
         books.largest_momentum = saved.largest_momentum;
         books.residue = saved.residue;
         books.terms = None;
-        old_books.copy_from(books, true);
+        self.old_books.copy_from(books, true);
+        let loads = &mut self.start_loads;
+        let loads = loads.total_force.iter_mut().chain(&mut loads.force);
+        for (own, load) in loads.zip(&saved.loads) {
+            *own = *load;
+        }
+    }
+}
+
+impl<const D: usize> Explicit<D> {
+    /// Everything besides the state that the next step depends on.
+    pub(crate) fn save(&self, state: &State) -> SavedExplicit {
+        let mut rates = Vec::new();
+        for place in &self.places[..self.kept_places] {
+            let [start, now] = [&place.past.rates[0], &place.rates];
+            let own = if self.has_left { start } else { now };
+            rates.extend_from_slice(own.as_flattened());
+        }
+        self.accounts.save(state, rates)
+    }
+
+    /// Continues from a checkpoint of the same scene.
+    pub(crate) fn restore(&mut self, saved: &SavedExplicit) {
+        self.accounts.restore(saved);
         let mut rates = saved.rates.iter();
         self.each_rate(&mut |[start, _]| {
             if let Some(rate) = rates.next() {
                 *start = *rate;
             }
         });
-        let loads = &mut self.start_loads;
-        let loads = loads.total_force.iter_mut().chain(&mut loads.force);
-        for (own, load) in loads.zip(&saved.loads) {
-            *own = *load;
-        }
     }
 }

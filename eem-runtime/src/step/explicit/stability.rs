@@ -1,14 +1,13 @@
 //! Why an explicit step failed: it is longer than the fastest motion allows, or an element is too cold.
 
 use super::accounts::Accounts;
+use super::bodies::Bodies;
 use super::components::Path;
 use super::memory::RowSums;
 use super::tableau::{IMAGINARY_LIMIT, REAL_LIMIT};
-use super::{Explicit, ExplicitView};
+use super::{Explicit, ExplicitView, View};
 use crate::algebra::largest;
 use crate::element::error::StateError;
-use crate::element::group::Stiffness;
-use crate::element::masses::Masses;
 use crate::step::error::StepFailure;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::Scalar;
@@ -19,13 +18,10 @@ const LIMITS: [f64; 3] = [IMAGINARY_LIMIT, REAL_LIMIT, REAL_LIMIT];
 /// The index of the dashpot among them.
 const DASHPOT: usize = 2;
 
-/// A function of the stiffnesses of an element.
-type See<'a> = &'a mut dyn FnMut(Stiffness<'_>);
-
 impl Accounts {
     /// The fastest vibration, conduction and dashpot, by bounds of the eigenvalues: sums of rows of the
     /// matrices that are symmetric in `√m q` and `√c θ`, 1/s.
-    fn fastest(&mut self, masses: &Masses, each: &dyn Fn(See<'_>)) -> [f64; 3] {
+    fn fastest(&mut self, bodies: &dyn Bodies) -> [f64; 3] {
         let RowSums {
             squares,
             capacities,
@@ -35,17 +31,18 @@ impl Accounts {
         capacities.fill(0.0);
         flows.fill(0.0);
         let per_root = |node: usize| {
-            let mass = masses.get(node);
+            let mass = bodies.view().masses.get(node);
             mass.map_or(0.0, |mass| mass.sqrt().recip())
         };
         let mut relaxation = 0.0;
-        each(&mut |element| {
+        let held = &self.stage;
+        bodies.see_stiffnesses(&mut |element| {
             let [a, b] = element.ends();
             let [by_a, by_b] = [per_root(a), per_root(b)];
             let mut stiffness = element.elastic;
             if let Some((slot, capacity)) = element.capacity {
                 capacities[slot] = capacity;
-                if self.stage.is_held(slot) {
+                if held.is_held(slot) {
                     // A thermostat keeps the temperature as a body of any size would.
                     (stiffness, capacities[slot]) = (element.isothermal, f64::MAX);
                 }
@@ -57,16 +54,10 @@ impl Accounts {
         add_conduction(&self.components.paths, capacities, flows);
         [largest(squares).sqrt(), largest(flows), relaxation]
     }
-}
 
-impl<const D: usize> Explicit<D> {
     /// The reason behind a failure, if the step is too long to be stable.
     #[cold]
-    pub(crate) fn explain(
-        &mut self,
-        failure: StepFailure,
-        view: &ExplicitView<'_, D>,
-    ) -> StepFailure {
+    pub(super) fn explain(&mut self, bodies: &dyn Bodies, failure: StepFailure) -> StepFailure {
         let may_be_unstable = matches!(
             failure,
             StepFailure::State(_)
@@ -78,9 +69,8 @@ impl<const D: usize> Explicit<D> {
         if !may_be_unstable {
             return failure;
         }
-        let end = view.state.time.value + view.step;
-        unstable(self.fastest(view), 0, [view.step, end])
-            .or_else(|| self.too_cold(&failure, view))
+        unstable(self.fastest(bodies), 0, bodies.view())
+            .or_else(|| self.too_cold(bodies, &failure))
             .unwrap_or(failure)
     }
 
@@ -89,36 +79,16 @@ impl<const D: usize> Explicit<D> {
     #[cold]
     pub(super) fn expect_stable_dashpots(
         &mut self,
-        view: &ExplicitView<'_, D>,
+        bodies: &dyn Bodies,
     ) -> Result<(), StepFailure> {
         if self.components.dashpots.is_empty() {
             return Ok(());
         }
-        let end = view.state.time.value + view.step;
-        unstable(self.fastest(view), DASHPOT, [view.step, end]).map_or(Ok(()), Err)
-    }
-
-    /// The step as a fraction of the longest stable one.
-    pub(crate) fn share_of_stable_step(&mut self, view: &ExplicitView<'_, D>) -> f64 {
-        let mut largest = 0.0_f64;
-        for (rate, limit) in self.fastest(view).iter().zip(LIMITS) {
-            largest = largest.max(rate / limit);
-        }
-        view.step * largest
-    }
-
-    /// The fastest vibration, conduction and dashpot, 1/s.
-    fn fastest(&mut self, view: &ExplicitView<'_, D>) -> [f64; 3] {
-        let groups = &self.groups;
-        self.accounts.fastest(view.masses, &|see: See<'_>| {
-            for group in groups {
-                group.elements().stiffness(view.state, see);
-            }
-        })
+        unstable(self.fastest(bodies), DASHPOT, bodies.view()).map_or(Ok(()), Err)
     }
 
     /// The element without an admissible temperature, as it was at the start of the step.
-    fn too_cold(&self, failure: &StepFailure, view: &ExplicitView<'_, D>) -> Option<StepFailure> {
+    fn too_cold(&self, bodies: &dyn Bodies, failure: &StepFailure) -> Option<StepFailure> {
         let StepFailure::State(
             StateError::Temperature { element, .. }
             | StateError::HeatCapacity { element, .. }
@@ -130,28 +100,40 @@ impl<const D: usize> Explicit<D> {
         let elements = &self.components.elements;
         let slot = elements.iter().position(|&at| at == element.index())?;
         let mut heat_capacity = 0.0;
-        for group in &self.groups {
-            group.elements().stiffness(view.state, &mut |found| {
-                if let Some((own, capacity)) = found.capacity
-                    && own == slot
-                {
-                    heat_capacity = capacity;
-                }
-            });
-        }
+        bodies.see_stiffnesses(&mut |found| {
+            if let Some((own, capacity)) = found.capacity
+                && own == slot
+            {
+                heat_capacity = capacity;
+            }
+        });
         let is_known = heat_capacity > 0.0;
         is_known.then(|| StepFailure::TooCold {
             element: *element,
             heat_capacity,
-            temperature: view.state.temperatures[slot],
+            temperature: bodies.view().state.temperatures[slot],
             scheme: Scheme::EemEntropy.name(),
-            time: view.state.time.value + view.step,
+            time: bodies.view().end(),
         })
     }
 }
 
+impl<const D: usize> Explicit<D> {
+    /// The step as a fraction of the longest stable one.
+    pub(crate) fn share_of_stable_step(&mut self, view: &ExplicitView<'_, D>) -> f64 {
+        let (accounts, bodies) = self.parts(view);
+        let rates = accounts.fastest(&bodies);
+        let mut largest = 0.0_f64;
+        for (rate, limit) in rates.iter().zip(LIMITS) {
+            largest = largest.max(rate / limit);
+        }
+        view.step * largest
+    }
+}
+
 /// The error of a step that is too long for one of the processes from this one on.
-fn unstable(rates: [f64; 3], first: usize, [h, time]: [f64; 2]) -> Option<StepFailure> {
+fn unstable(rates: [f64; 3], first: usize, view: &View<'_>) -> Option<StepFailure> {
+    let h = view.step;
     let process = (first..rates.len()).find(|&process| h * rates[process] > LIMITS[process])?;
     let (fastest, limit) = (rates[process], LIMITS[process]);
     Some(StepFailure::Unstable {
@@ -160,7 +142,7 @@ fn unstable(rates: [f64; 3], first: usize, [h, time]: [f64; 2]) -> Option<StepFa
         limit,
         longest: limit / fastest,
         scheme: Scheme::EemEntropy.name(),
-        time,
+        time: view.end(),
     })
 }
 

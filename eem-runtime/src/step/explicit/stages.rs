@@ -37,10 +37,16 @@ pub(super) fn errors<const N: usize, const P: usize>(past: &Past<N, P>) -> [[[f6
     ]
 }
 
-/// The variables at the end of a step of the size h, before it is closed.
-#[inline]
-pub(super) fn unclosed<const N: usize, const P: usize>(past: &Past<N, P>, h: f64) -> [[f64; N]; P] {
-    past.after(h, (&WEIGHTED_ROWS, &WEIGHTS))
+/// `Σ a k` for one of so many variables, whose rates are one row after the other.
+pub(super) fn combined(
+    a: &[f64; WEIGHTED.len()],
+    (rates, variables, index): (&[f64], usize, usize),
+) -> f64 {
+    let mut sum = a[0] * rates[WEIGHTED_ROWS[0] * variables + index];
+    for term in 1..a.len() {
+        sum += a[term] * rates[WEIGHTED_ROWS[term] * variables + index];
+    }
+    sum
 }
 
 /// The same as [`combine`](Explicit::combine) for the internal variables.
@@ -163,8 +169,8 @@ impl<const D: usize> Explicit<D> {
         }
         if self.has_functions {
             let time = view.loads.inside([view.state.time.value, view.step], time);
-            self.loads
-                .evaluate_forces_at(view.loads, view.masses, time)?;
+            let loads = &mut self.accounts.loads;
+            loads.evaluate_forces_at(view.loads, view.masses, time)?;
         }
         self.apply_loads();
         Ok(())
@@ -172,9 +178,10 @@ impl<const D: usize> Explicit<D> {
 
     /// Initialises the forces on masses with the loads.
     fn apply_loads(&mut self) {
-        let masses = self.places[..self.accounts.components.masses].iter_mut();
-        for (place, &node) in masses.zip(&self.accounts.components.nodes) {
-            place.rates[1] = self.loads.total_force(node);
+        let components = &self.accounts.components;
+        for at in 0..components.masses {
+            let load = self.accounts.loads.total_force(components.nodes[at]);
+            self.places[at].rates[1] = load;
         }
     }
 
@@ -187,7 +194,7 @@ impl<const D: usize> Explicit<D> {
         for group in &self.groups {
             group.rates(&mut self.places, &mut self.accounts.stage)?;
         }
-        self.evaluations += 1;
+        self.accounts.evaluations += 1;
         if self.is_driven
             && let Some(at) = weight
         {

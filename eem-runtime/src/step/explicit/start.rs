@@ -2,7 +2,7 @@
 
 use super::accounts::Accounts;
 use super::components::Support;
-use super::memory::Momenta;
+use super::memory::momenta_of;
 use super::outside::copy_loads;
 use super::tableau::WEIGHTS;
 use super::{Explicit, ExplicitView};
@@ -28,6 +28,38 @@ impl Accounts {
         }
     }
 
+    /// Keeps the books before the step, and begins the sums of internal variables.
+    #[inline]
+    fn begin(&mut self, has_meters: bool) {
+        self.old_books.copy_from(&self.books, self.is_driven);
+        for production in &mut self.stage.productions {
+            production.begin(WEIGHTS[0]);
+        }
+        if has_meters {
+            self.begin_heats();
+        }
+        self.has_left = true;
+    }
+
+    /// Restores loads and books at the start of the last attempt.
+    fn rewind(&mut self) {
+        copy_loads(&mut self.loads, &self.start_loads);
+        self.books.copy_from(&self.old_books, self.is_driven);
+    }
+
+    /// Takes the energy of this state, and the momenta found before, as the conserved targets.
+    fn set_targets(&mut self, state: &State) {
+        self.scratch.energies.fill(ComponentEnergy::default());
+        for (&component, energy) in self.components.of_element.iter().zip(&state.energies) {
+            self.scratch.energies[component as usize].add(energy);
+        }
+        for index in 0..self.components.all.len() {
+            let [energy, _] = self.energy_of(index);
+            self.books.targets[index].energy = Sum::new(energy);
+        }
+        self.is_ready = true;
+    }
+
     /// Begins the sums of the heat of each dashpot, with the contribution of the start.
     fn begin_heats(&mut self) {
         let stage = &mut self.stage;
@@ -51,118 +83,68 @@ impl<const D: usize> Explicit<D> {
         next: &mut State,
     ) -> Result<(), StepFailure> {
         if self.has_left || !self.is_ready {
-            // Steps write only variables that change; all others are equal in both states from now on.
-            next.copy_from(view.state);
-            self.load(view)?;
-            if self.is_ready {
-                self.rewind();
-            } else {
-                self.prepare(view)?;
-            }
+            self.return_to(view, next)?;
         }
-        let accounts = &mut self.accounts;
-        accounts
-            .old_books
-            .copy_from(&accounts.books, accounts.is_driven);
-        if accounts.is_driven {
-            self.old_momenta.copy_from_slice(&self.momenta);
-        }
-        for production in &mut self.stage.productions {
-            production.begin(WEIGHTS[0]);
-        }
-        if view.state.meters.are_on {
-            self.begin_heats();
-        }
+        self.accounts.begin(view.state.meters.are_on);
         if self.is_driven {
             self.begin_outside();
         }
-        self.has_left = true;
         Ok(())
     }
 
-    /// Takes the variables of a state, and the constant forces of its loads.
+    /// Takes the variables of a state, the constant forces of its loads, and its rates and targets.
     #[cold]
-    fn load(&mut self, view: &ExplicitView<'_, D>) -> Result<(), StepFailure> {
+    fn return_to(
+        &mut self,
+        view: &ExplicitView<'_, D>,
+        next: &mut State,
+    ) -> Result<(), StepFailure> {
+        let (state, start) = (view.state, view.state.time.value);
+        // Steps write only variables that change; all others are equal in both states from now on.
+        next.copy_from(state);
         if self.loads.has_total_force() {
-            let time = view.state.time.value;
             self.loads
-                .evaluate_constant_forces(view.loads, view.masses, time)?;
+                .evaluate_constant_forces(view.loads, view.masses, start)?;
         }
-        let state = view.state;
         let positions = points::<D>(state.positions.values());
         let momenta = points::<D>(state.momenta.values());
-        for (place, &node) in self.places.iter_mut().zip(&self.accounts.components.nodes) {
+        for at in 0..self.places.len() {
+            let (place, node) = (&mut self.places[at], self.accounts.components.nodes[at]);
             place.now = [positions[node], momenta[node]];
-            place.force = self.loads.total_force(node);
+            place.force = self.accounts.loads.total_force(node);
             place.begin_rates();
         }
-        self.accounts.load(state, &view.conduction.reservoirs);
-        Ok(())
-    }
-
-    /// Finds rates and targets.
-    #[cold]
-    fn prepare(&mut self, view: &ExplicitView<'_, D>) -> Result<(), StepFailure> {
-        for moved in &self.prescribed.moved {
+        self.load(state, &view.conduction.reservoirs);
+        if self.is_ready {
+            self.each_rate(&mut |[start, now]| *now = *start);
+            self.rewind();
+            return Ok(());
+        }
+        for moved in &self.accounts.prescribed.moved {
+            let velocities = points::<D>(&moved.velocities);
             for &place in &moved.places {
-                self.places[place].rates[0] = moved.velocities[0];
+                self.places[place].rates[0] = velocities[0];
             }
         }
-        self.evaluate_loads(view, view.state.time.value)?;
+        self.evaluate_loads(view, start)?;
         self.find_rates(None)?;
-        self.set_targets(view.state);
-        self.is_ready = true;
+        self.books.clear();
+        for index in 0..self.components.all.len() {
+            self.look_at_motion(index);
+            if self.components.all[index].support != Support::Several {
+                let targets = &mut self.accounts.books.momenta[momenta_of(index, D)];
+                self.momenta[index].each(&mut |at, momentum| targets[at] = Sum::new(momentum));
+            }
+        }
+        self.set_targets(state);
         Ok(())
     }
 
     /// Calls a function for all rates that are kept, at the start of the step and now.
     pub(super) fn each_rate(&mut self, visit: &mut dyn FnMut([&mut f64; 2])) {
-        for place in &mut self.places[..self.kept_places] {
+        for place in &mut self.places[..self.accounts.kept_places] {
             place.each_rate(visit);
         }
         self.accounts.stage.each_rate(visit);
-    }
-
-    /// Restores rates and sums at the start of the last attempt.
-    #[cold]
-    fn rewind(&mut self) {
-        self.each_rate(&mut |[start, now]| *now = *start);
-        copy_loads(&mut self.loads, &self.start_loads);
-        let accounts = &mut self.accounts;
-        accounts
-            .books
-            .copy_from(&accounts.old_books, accounts.is_driven);
-        if accounts.is_driven {
-            self.momenta.copy_from_slice(&self.old_momenta);
-        }
-    }
-
-    /// Takes energy and momenta of this state as the conserved targets.
-    fn set_targets(&mut self, state: &State) {
-        self.books.clear();
-        self.scratch.energies.fill(ComponentEnergy::default());
-        let Accounts {
-            components,
-            scratch,
-            ..
-        } = &mut self.accounts;
-        let elements = components.of_element.iter().zip(&state.energies);
-        for (&component, energy) in elements {
-            scratch.energies[component as usize].add(energy);
-        }
-        for index in 0..self.components.all.len() {
-            self.look_at_motion(index);
-            let motion = &self.motions[index];
-            let mut momenta = Momenta::none();
-            if self.components.all[index].support != Support::Several {
-                for (target, &linear) in momenta.linear.iter_mut().zip(&motion.linear) {
-                    *target = Sum::new(linear);
-                }
-                momenta.angular = motion.angular.map(Sum::new(0.0), Sum::new);
-            }
-            let [energy, _] = self.energy_of(index, &motion.energy);
-            self.books.targets[index].energy = Sum::new(energy);
-            self.momenta[index] = momenta;
-        }
     }
 }

@@ -12,7 +12,7 @@ impl Accounts {
     /// The entropy that held elements have received from dashpots and paths, and the part of the heat of thermostats that
     /// follows from the course of their temperature.
     pub(super) fn book_course(&mut self, h: f64, old: &State, next: &State) {
-        for held in &self.held {
+        for held in &self.prescribed.held {
             let slot = held.slot;
             let thermostat = &self.stage.thermostats[slot];
             let change = thermostat.last - old.temperatures[slot];
@@ -25,8 +25,8 @@ impl Accounts {
 
     /// Books the heat of thermostats in open components, given the entropies of their elements.
     pub(super) fn book_thermostats(&mut self, old: &State, next: &State) {
-        for at in 0..self.held.len() {
-            let slot = self.held[at].slot;
+        for at in 0..self.prescribed.held.len() {
+            let slot = self.prescribed.held[at].slot;
             if self.scratch.open[self.components.of_slot(slot)] {
                 let balance = &mut self.scratch.held[slot];
                 let change = next.entropies.change(slot, &old.entropies);
@@ -67,7 +67,7 @@ impl<const D: usize> Explicit<D> {
         if !self.stage.has_thermostats {
             return;
         }
-        for held in &self.accounts.held {
+        for held in &self.accounts.prescribed.held {
             self.accounts.stage.thermostats[held.slot].begin(held.temperatures[STAGES - 1]);
         }
         self.integrate_thermostats(true);

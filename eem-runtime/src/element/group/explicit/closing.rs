@@ -6,10 +6,9 @@ use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, measures_in};
 use crate::element::group::certify::work_of;
 use crate::element::group::explicit::closed::Closed;
-use crate::element::group::explicit::group::ExplicitElements;
 use crate::element::group::explicit::point::ExplicitPoint;
 use crate::element::group::explicit::rates::arms_of;
-use crate::element::group::explicit::stage::{Place, Stage};
+use crate::element::group::explicit::stage::Place;
 use crate::element::group::explicit::temperature::Recovered;
 use crate::element::group::explicit::view::ClosingView;
 use crate::element::group::placed::admissible;
@@ -18,69 +17,34 @@ use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
 use eem_material::free_energy::{Array, Material};
 
-impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
-    /// See [`ExplicitGroup::close`](super::ExplicitGroup::close).
-    pub(super) fn close_all(&mut self, view: &mut ClosingView<'_, D>) -> Result<(), StateError> {
-        for (point, closed) in self.points.iter().zip(&mut self.closed) {
-            if view.open[point.component as usize] {
-                point.close_at(view, closed)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// See [`ExplicitGroup::pull`](super::ExplicitGroup::pull).
-    pub(super) fn pull_all(
-        &self,
-        components: &[bool],
-        forces: &mut [[f64; D]],
-        creep: &mut [[f64; 2]],
-    ) {
-        for (point, closed) in self.points.iter().zip(&self.closed) {
-            let nodes = &point.nodes;
-            if !components[point.component as usize] {
-                continue;
-            }
-            let mut pull = Arms::<K, D>::filled([0.0; D]);
-            for a in 0..M::MEASURES {
-                let force = closed.rates.forces[a];
-                add_scaled::<K, D>(&mut pull, force, &closed.gradient[a]);
-            }
-            for (index, arm) in pull.as_ref().iter().enumerate() {
-                for (axis, &pull) in arm.iter().enumerate() {
-                    forces[nodes[index + 1] as usize][axis] -= pull;
-                    forces[nodes[0] as usize][axis] += pull;
-                }
-            }
-            for k in 0..point.model.dashpots() {
-                let g = closed.rates.forces[M::MEASURES + k];
-                let rate = g / closed.viscosities.0[k];
-                creep[point.viscous(k)] = [rate, g * rate];
-            }
-        }
-    }
-
-    /// See [`ExplicitGroup::finish`](super::ExplicitGroup::finish).
-    pub(super) fn finish_all(
-        &self,
-        places: &mut [Place<D>],
-        stage: &mut Stage,
-    ) -> Result<(), StateError> {
-        for (point, closed) in self.points.iter().zip(&self.closed) {
-            let theta = point.temperature_in(stage);
-            let found = closed.at(theta, point.model.dashpots());
-            if !point.write_rates(&found, (&mut *places, &mut *stage)) {
-                return Err(point.refuse((places, stage)));
-            }
-        }
-        Ok(())
-    }
-}
-
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
+    /// Adds its forces on places, and writes `γ̇` and `g γ̇` of its dashpots.
+    pub(super) fn pull_at(
+        &self,
+        closed: &Closed<M, K, D>,
+        (forces, creep): (&mut [[f64; D]], &mut [[f64; 2]]),
+    ) {
+        let mut pull = Arms::<K, D>::filled([0.0; D]);
+        for a in 0..M::MEASURES {
+            let force = closed.rates.forces[a];
+            add_scaled::<K, D>(&mut pull, force, &closed.gradient[a]);
+        }
+        for (index, arm) in pull.as_ref().iter().enumerate() {
+            for (axis, &pull) in arm.iter().enumerate() {
+                forces[self.nodes[index + 1] as usize][axis] -= pull;
+                forces[self.nodes[0] as usize][axis] += pull;
+            }
+        }
+        for k in 0..self.model.dashpots() {
+            let g = closed.rates.forces[M::MEASURES + k];
+            let rate = g / closed.viscosities.0[k];
+            creep[self.viscous(k)] = [rate, g * rate];
+        }
+    }
+
     /// Finds temperature and energy.
     #[inline]
-    fn close_at(
+    pub(super) fn close_at(
         &self,
         view: &mut ClosingView<'_, D>,
         closed: &mut Closed<M, K, D>,

@@ -1,6 +1,7 @@
 //! The elements of one model in an explicit scheme.
 
 use crate::element::conjugates::{Conjugates, OneSet, PointRule};
+use crate::element::ends::Ends;
 use crate::element::error::StateError;
 use crate::element::group::explicit::closed::Closed;
 use crate::element::group::explicit::point::ExplicitPoint;
@@ -13,9 +14,9 @@ use eem_material::free_energy::Material;
 
 /// Springs of the model `M` with the kinematics `K`. Their forces follow from the state alone.
 pub(crate) struct ExplicitElements<M: Material, K: Kinematics<D>, const D: usize> {
-    pub(super) points: Vec<ExplicitPoint<M, K, D>>,
+    points: Vec<ExplicitPoint<M, K, D>>,
     /// Per element: its last evaluation in a closing.
-    pub(super) closed: Vec<Closed<M, K, D>>,
+    closed: Vec<Closed<M, K, D>>,
     /// The elements in a state, whose models may be behind a table.
     all: Box<dyn Group<D>>,
 }
@@ -49,37 +50,62 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitGroup<D> for Explici
         self.all.into_loose()
     }
 
-    fn join(
-        &mut self,
-        (component_of, first_temperature): (&[u32], usize),
-        place_of: &dyn Fn(u32, u32) -> u32,
-    ) {
-        let elements = self.all.elements();
-        for (place, point) in self.points.iter_mut().enumerate() {
-            let component = component_of[point.element.index()];
-            let places = elements.nodes(place).iter();
-            let places = places.map(|&node| place_of(component, node));
-            point.join(component, first_temperature, places);
+    fn join(&mut self, (component_of, places): (&[u32], &Ends), first_temperature: usize) {
+        for point in &mut self.points {
+            let element = point.element.index();
+            let places = places.of(element);
+            point.join((component_of[element], places), first_temperature);
         }
     }
 
     fn rates(&self, places: &mut [Place<D>], stage: &mut Stage) -> Result<(), StateError> {
-        self.rates_of_all(places, stage)
+        // Known from here on, so that an index is checked once for both.
+        assert!(
+            stage.inner.len() == stage.inner_rates.len(),
+            "each internal variable has a rate"
+        );
+        for point in &self.points {
+            if !point.add_rates(places, stage) {
+                return Err(point.refuse((places, stage)));
+            }
+        }
+        Ok(())
     }
 
     fn integrate_thermostats(&self, places: &[Place<D>], stage: &mut Stage, is_start: bool) {
-        self.integrate_thermostats_of_all(places, stage, is_start);
+        for point in &self.points {
+            let held = point.slot().filter(|&slot| stage.is_held(slot));
+            if let Some(slot) = held {
+                point.integrate_thermostat(slot, (places, stage), is_start);
+            }
+        }
     }
 
     fn close(&mut self, view: &mut ClosingView<'_, D>) -> Result<(), StateError> {
-        self.close_all(view)
+        for (point, closed) in self.points.iter().zip(&mut self.closed) {
+            if view.open[point.component as usize] {
+                point.close_at(view, closed)?;
+            }
+        }
+        Ok(())
     }
 
     fn pull(&self, components: &[bool], forces: &mut [[f64; D]], creep: &mut [[f64; 2]]) {
-        self.pull_all(components, forces, creep);
+        for (point, closed) in self.points.iter().zip(&self.closed) {
+            if components[point.component as usize] {
+                point.pull_at(closed, (forces, creep));
+            }
+        }
     }
 
     fn finish(&self, places: &mut [Place<D>], stage: &mut Stage) -> Result<(), StateError> {
-        self.finish_all(places, stage)
+        for (point, closed) in self.points.iter().zip(&self.closed) {
+            let theta = point.temperature_in(stage);
+            let found = closed.at(theta, point.model.dashpots());
+            if !point.write_rates(&found, (&mut *places, &mut *stage)) {
+                return Err(point.refuse((places, stage)));
+            }
+        }
+        Ok(())
     }
 }

@@ -42,17 +42,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
     }
 
     /// Takes its component and its places.
-    pub(super) fn join(
-        &mut self,
-        component: u32,
-        first_temperature: usize,
-        places: impl Iterator<Item = u32>,
-    ) {
+    pub(super) fn join(&mut self, (component, places): (u32, &[u32]), first_temperature: usize) {
         self.component = component;
         self.temperature = self.slot + compact(first_temperature);
-        for (own, place) in self.nodes.as_mut().iter_mut().zip(places) {
-            *own = place;
-        }
+        self.nodes.as_mut().copy_from_slice(places);
     }
 
     /// Its thermal slot, if it has a temperature.

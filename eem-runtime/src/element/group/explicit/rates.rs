@@ -9,37 +9,11 @@ use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, scale};
 use crate::element::group::explicit::closed::Found;
-use crate::element::group::explicit::group::ExplicitElements;
 use crate::element::group::explicit::point::ExplicitPoint;
 use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Measures};
 use eem_material::free_energy::{Array, Material, Rates};
 use eem_material::number::scalar::is_positive;
-
-impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
-    /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
-    pub(super) fn rates_of_all(
-        &self,
-        places: &mut [Place<D>],
-        stage: &mut Stage,
-    ) -> Result<(), StateError> {
-        // Known from here on, so that an index is checked once for both.
-        assert!(
-            stage.inner.len() == stage.inner_rates.len(),
-            "each internal variable has a rate"
-        );
-        for point in &self.points {
-            let r = arms_of::<K, D>(&point.nodes, places, Place::q);
-            let measures = point.kinematics.measure(&r);
-            let found = point.found_at(&r, &measures, stage);
-            let is_sound = point.write_rates(&found, (&mut *places, &mut *stage));
-            if !(is_sound && point.kinematics.is_admissible(&r, &measures)) {
-                return Err(point.refuse((places, stage)));
-            }
-        }
-        Ok(())
-    }
-}
 
 /// The arms of an element, or their rates.
 #[inline]
@@ -82,6 +56,17 @@ fn is_number(value: f64) -> bool {
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
+    /// Adds its forces and writes its rates at a stage; returns whether they are valid.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "called in the hottest loop")]
+    pub(super) fn add_rates(&self, places: &mut [Place<D>], stage: &mut Stage) -> bool {
+        let r = arms_of::<K, D>(&self.nodes, places, Place::q);
+        let measures = self.kinematics.measure(&r);
+        let found = self.found_at(&r, &measures, stage);
+        let is_sound = self.write_rates(&found, (&mut *places, &mut *stage));
+        is_sound && self.kinematics.is_admissible(&r, &measures)
+    }
+
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "what was found stays in registers")]
     fn found_at(&self, r: &Arms<K, D>, measures: &Measures<K, D>, stage: &Stage) -> Found<M, K, D> {

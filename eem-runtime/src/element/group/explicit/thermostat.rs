@@ -1,34 +1,16 @@
 //! The part of the heat of thermostats that depends on the course of their temperature.
 
 use crate::element::group::arms::along;
-use crate::element::group::explicit::group::ExplicitElements;
 use crate::element::group::explicit::point::ExplicitPoint;
 use crate::element::group::explicit::rates::arms_of;
 use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::Material;
 
-impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
-    /// See [`ExplicitGroup::integrate_thermostats`](super::ExplicitGroup::hold).
-    #[cold]
-    pub(super) fn integrate_thermostats_of_all(
-        &self,
-        places: &[Place<D>],
-        stage: &mut Stage,
-        is_start: bool,
-    ) {
-        for point in &self.points {
-            let held = point.slot().filter(|&slot| stage.is_held(slot));
-            if let Some(slot) = held {
-                point.integrate_thermostat(slot, (places, stage), is_start);
-            }
-        }
-    }
-}
-
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
     /// Adds the present stage to the integrals of its [thermostat](crate::element::group::explicit::stage::Thermostat).
-    fn integrate_thermostat(
+    #[cold]
+    pub(super) fn integrate_thermostat(
         &self,
         slot: usize,
         (places, stage): (&[Place<D>], &mut Stage),

@@ -3,10 +3,9 @@
 use super::super::Explicit;
 use super::super::accounts::Accounts;
 use super::super::demand::Demand;
-use super::super::memory::{Motion, MotionEnergy};
+use super::super::memory::{Momenta, Motion};
 use super::super::origin::Origin;
 use super::{FROZEN, Status};
-use crate::algebra::dot;
 use crate::element::group::{Caloric, Place, is_met};
 use crate::element::state::State;
 use core::ops::Range;
@@ -33,10 +32,10 @@ pub(super) struct Warmth {
 }
 
 impl Accounts {
-    /// The energy of a component with this motion, and the magnitude of its terms, J.
+    /// The energy of a component, and the magnitude of its terms, J.
     #[inline]
-    pub(in super::super) fn energy_of(&self, index: usize, motion: &MotionEnergy) -> [f64; 2] {
-        let inner = &self.scratch.energies[index];
+    pub(in super::super) fn energy_of(&self, index: usize) -> [f64; 2] {
+        let (motion, inner) = (&self.motions[index], &self.scratch.energies[index]);
         let (mut energy, mut magnitude) = (motion.value, motion.magnitude + inner.magnitude);
         energy.add(inner.value.value());
         if self.is_driven {
@@ -58,9 +57,10 @@ impl Accounts {
     }
 
     /// The defect of the energy of a component, and the magnitude of its terms, J.
-    #[inline]
-    pub(in super::super) fn defect_of(&self, index: usize, motion: &MotionEnergy) -> [f64; 2] {
-        let [energy, magnitude] = self.energy_of(index, motion);
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "two values are returned in registers")]
+    pub(in super::super) fn defect_of(&self, index: usize) -> [f64; 2] {
+        let [energy, magnitude] = self.energy_of(index);
         let target = self.books.targets[index].energy;
         // Below the smallest normal number, rounding is that of this number.
         let least = self.scratch.subnormal * self.components.all[index].products;
@@ -71,15 +71,10 @@ impl Accounts {
     }
 
     /// Corrects the energy by heat as long as no element has to be evaluated for it.
-    #[inline]
-    pub(super) fn balance(
-        &mut self,
-        (index, motion): (usize, &MotionEnergy),
-        demand: Demand,
-        next: &mut State,
-    ) -> Status {
+    #[inline(never)]
+    pub(super) fn balance(&mut self, index: usize, demand: Demand, next: &mut State) -> Status {
         loop {
-            let is_finite = self.look(index, motion);
+            let is_finite = self.look(index);
             let progress = &mut self.scratch.progress[index];
             if progress.is_rigid || progress.is_closed {
                 return Status::Closed;
@@ -108,8 +103,8 @@ impl Accounts {
 
     /// Finds the defect of a component; returns whether it is finite.
     #[inline]
-    fn look(&mut self, index: usize, motion: &MotionEnergy) -> bool {
-        let present = self.defect_of(index, motion);
+    fn look(&mut self, index: usize) -> bool {
+        let present = self.defect_of(index);
         let progress = &mut self.scratch.progress[index];
         progress.present = Some(present);
         let [defect, magnitude] = present;
@@ -247,41 +242,25 @@ impl<const D: usize> Explicit<D> {
     /// Finds the sums over the masses of a component for their present positions and momenta.
     #[inline]
     pub(in super::super) fn look_at_motion(&mut self, index: usize) {
-        self.sum_motion(index, Motion::add);
-    }
-
-    /// Sums what `add` adds for each mass of a component and its arm.
-    #[inline]
-    pub(super) fn sum_motion(
-        &mut self,
-        index: usize,
-        add: impl Fn(&mut Motion<D>, &Place<D>, &[f64; D]),
-    ) {
-        let component = &self.components.all[index];
+        let component = &self.accounts.components.all[index];
         let origin = Origin::of(&self.places, component);
-        let mut motion = Motion::none();
+        let (mut momenta, mut motion) = (Momenta::none(), Motion::default());
         for place in &self.places[component.masses.clone()] {
-            add(&mut motion, place, &origin.arm(place.q()));
+            add_motion(place, &origin.arm(place.q()), (&mut momenta, &mut motion));
         }
-        self.motions[index] = motion;
+        (self.momenta[index], self.accounts.motions[index]) = (momenta, motion);
     }
+}
 
-    /// The magnitude by which the state at the start of a step enters the bound of the energy, and its energy terms, J.
-    #[cold]
-    pub(in super::super) fn terms_at_start(&self, state: &State) -> [f64; 2] {
-        let [mut motion, mut potential] = [0.0; 2];
-        for place in &self.places[..self.components.masses] {
-            let [q, p] = &place.past.start;
-            motion += 0.5 * dot(p, p) * place.per_mass();
-            for (force, q) in place.force.iter().zip(q) {
-                potential += (force * q).abs();
-            }
-        }
-        let [mut counted, mut terms] = [motion + potential, motion];
-        for energy in &state.energies {
-            counted += energy.magnitude + energy.excess;
-            terms += energy.terms;
-        }
-        [counted, terms]
-    }
+/// Adds momenta and energy of a mass at the end of an arm.
+#[inline]
+pub(super) fn add_motion<const D: usize>(
+    place: &Place<D>,
+    arm: &[f64; D],
+    (momenta, motion): (&mut Momenta<D>, &mut Motion),
+) {
+    let (q, p) = (place.q(), place.p());
+    momenta.add(p, arm);
+    motion.add_terms([q, p], arm);
+    motion.add_energy([q, p], &place.force, place.per_mass());
 }

@@ -4,12 +4,12 @@ use super::super::Explicit;
 use super::super::components::{Component, Support};
 use super::super::inertia::turning::turning;
 use super::super::inertia::{Inertia, Moments, WEAK};
-use super::super::memory::{Motion, farther};
+use super::super::memory::{Momenta, Motion, farther, momenta_of};
 use super::super::origin::Origin;
+use super::energy::add_motion;
 use crate::algebra::bivector::Bivector;
-use crate::algebra::{add, dot, size, vector};
+use crate::algebra::{add, dot, size};
 use crate::element::group::Place;
-use eem_material::number::compensated::Sum;
 
 /// Defects up to this many roundings of `Σ |q||p|` are corrected by momenta; only for larger ones positions are
 /// rotated.
@@ -40,17 +40,14 @@ struct Body<const D: usize> {
 impl<const D: usize> Body<D> {
     /// The rigid motion with these momenta.
     #[inline]
-    fn motion(
-        &self,
-        component: &Component,
-        (linear, angular): (&[f64; D], &Bivector<f64, D>),
-    ) -> Rigid<D> {
-        let turning = self.inertia.as_ref();
-        let turning = turning.map(|inertia| inertia.solve(angular));
+    fn motion(&self, component: &Component, momenta: &Momenta<D>) -> Rigid<D> {
         Rigid {
             origin: self.origin,
-            velocity: component.velocity(linear),
-            omega: turning.unwrap_or(Bivector::zero()),
+            velocity: component.velocity(&momenta.linear),
+            omega: match &self.inertia {
+                Some(inertia) => inertia.solve(&momenta.angular),
+                None => Bivector::zero(),
+            },
         }
     }
 }
@@ -58,9 +55,8 @@ impl<const D: usize> Body<D> {
 impl<const D: usize> Explicit<D> {
     /// The rigid motion of a component with its present momenta.
     pub(super) fn rigid(&self, index: usize) -> Rigid<D> {
-        let (component, motion) = (&self.components.all[index], &self.motions[index]);
-        let body = self.body(component);
-        body.motion(component, (&motion.linear, &motion.angular))
+        let component = &self.components.all[index];
+        self.body(component).motion(component, &self.momenta[index])
     }
 
     /// A component as a rigid body.
@@ -107,7 +103,7 @@ impl<const D: usize> Explicit<D> {
     #[inline]
     fn add_rigid(&mut self, index: usize, rigid: &Rigid<D>) {
         let masses = self.components.all[index].masses.clone();
-        let mut motion = Motion::none();
+        let (mut momenta, mut motion) = (Momenta::none(), Motion::default());
         for place in &mut self.places[masses] {
             let arm = rigid.origin.arm(place.q());
             let turning = rigid.omega.turn(&arm);
@@ -115,9 +111,9 @@ impl<const D: usize> Explicit<D> {
             for axis in 0..D {
                 momentum[axis] += place.mass * (rigid.velocity[axis] + turning[axis]);
             }
-            motion.add(place, &arm);
+            add_motion(place, &arm, (&mut momenta, &mut motion));
         }
-        self.motions[index] = motion;
+        (self.momenta[index], self.accounts.motions[index]) = (momenta, motion);
     }
 
     /// Corrects the momenta to their targets; in space repeatedly if the rounding of a correction matters. Positions
@@ -129,13 +125,18 @@ impl<const D: usize> Explicit<D> {
             return;
         }
         // The energy is summed with the corrected momenta.
-        self.sum_motion(index, |motion, place, arm| {
-            motion.add_momenta(place, arm);
+        let component = &self.accounts.components.all[index];
+        let origin = Origin::of(&self.places, component);
+        let (mut momenta, mut motion) = (Momenta::none(), Motion::default());
+        for place in &self.places[component.masses.clone()] {
+            let (q, p, arm) = (place.q(), place.p(), origin.arm(place.q()));
+            momenta.add(p, &arm);
             // Only rotations in space ask how well they are known before a correction.
             if D > 2 {
-                motion.add_terms(place, arm);
+                motion.add_terms([q, p], &arm);
             }
-        });
+        }
+        (self.momenta[index], self.accounts.motions[index]) = (momenta, motion);
         // In four dimensions and more, several planes may be without inertia, and principal axes are known to ε over the gap of
         // their moments, so that the correction of one plane spoils another.
         let most = if D < 4 { 1 } else { 3 };
@@ -163,30 +164,29 @@ impl<const D: usize> Explicit<D> {
             }
         }
         for _ in 0..=MOST_CORRECTIONS {
-            let (linear, angular) = self.missing_momenta(index);
-            let component = &self.components.all[index];
-            let rigid = body.motion(component, (&linear, &angular));
+            let missing = self.missing_momenta(index);
+            let rigid = body.motion(&self.components.all[index], &missing);
             self.add_rigid(index, &rigid);
             let [_, terms] = self.motions[index].terms;
             // The rotation is known to ε/WEAK of itself.
-            if D < 3 || angular.largest() <= WEAK * terms {
+            if D < 3 || missing.angular.largest() <= WEAK * terms {
                 break;
             }
         }
         if D < 4 {
             return false;
         }
-        let (_, left) = self.missing_momenta(index);
+        let left = self.missing_momenta(index).angular;
         left.largest() <= self.own_rounding(index)
     }
 
-    /// The defects of linear and angular momentum of a component.
+    /// The defects of the momenta of a component.
     #[inline]
-    pub(in super::super) fn missing_momenta(&self, index: usize) -> ([f64; D], Bivector<f64, D>) {
-        let (motion, target) = (&self.motions[index], &self.momenta[index]);
-        let linear = vector(|axis| target.linear[axis].beyond(motion.linear[axis]));
-        let angular = target.angular.zip(&motion.angular, 0.0, Sum::beyond);
-        (linear, angular)
+    pub(in super::super) fn missing_momenta(&self, index: usize) -> Momenta<D> {
+        let targets = &self.books.momenta[momenta_of(index, D)];
+        let mut missing = self.momenta[index];
+        missing.change(|at, own| targets[at].beyond(own));
+        missing
     }
 
     /// Whether the target of masses on a line has an angular momentum in planes perpendicular to the line, which no
@@ -225,8 +225,10 @@ impl<const D: usize> Explicit<D> {
     }
 
     pub(in super::super) fn angular_target(&self, index: usize) -> Bivector<f64, D> {
-        let target = &self.momenta[index].angular;
-        target.map(0.0, |sum| sum.value)
+        let targets = &self.books.momenta[momenta_of(index, D)];
+        let mut momenta = Momenta::none();
+        momenta.change(|at, _| targets[at].value);
+        momenta.angular
     }
 
     /// Rotates positions and momenta of a component, so that its momenta can be corrected; returns whether it did.
@@ -241,13 +243,12 @@ impl<const D: usize> Explicit<D> {
             // No inertia is weak: the momenta alone are corrected.
             return false;
         };
-        let motion = &self.motions[index];
-        let linear = motion.linear;
-        let momenta = [&motion.angular, &self.angular_target(index)];
+        let Momenta { linear, angular } = &self.momenta[index];
+        let momenta = [angular, &self.angular_target(index)];
         let Some(change) = turning(&principal, momenta, self.rounding_of_target(index)) else {
             return false;
         };
-        let velocity = component.velocity(&linear);
+        let velocity = component.velocity(linear);
         let masses = component.masses.clone();
         for place in &mut self.places[masses] {
             let arm = origin.arm(place.q());

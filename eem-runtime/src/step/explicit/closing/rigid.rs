@@ -56,6 +56,12 @@ impl Accounts {
         progress.factor = 0.0;
     }
 
+    /// Whether loads act, or a thermostat in a component.
+    fn is_pushed(&self, index: usize) -> bool {
+        let slots = &self.components.slots[self.slots_of(index)];
+        !self.load_sums.is_empty() || slots.iter().any(|&slot| self.stage.is_held(slot))
+    }
+
     /// The largest relative difference of an internal variable of a component from its start.
     fn difference_from_start(&self, index: usize, position: f64) -> f64 {
         let mut largest = 0.0;
@@ -84,10 +90,7 @@ impl<const D: usize> Explicit<D> {
         next: &mut State,
     ) -> Result<(), StepFailure> {
         let largest = demand.largest_turn();
-        let is_loaded = !self.load_sums.is_empty();
-        let slots = &self.components.slots[self.slots_of(index)];
-        let has_thermostat = slots.iter().any(|&slot| self.stage.is_held(slot));
-        if is_loaded || has_thermostat || !self.takes_turn(index, view.step, largest, scales) {
+        if self.is_pushed(index) || !self.takes_turn(index, view.step, largest, scales) {
             return Err(StepFailure::NotClosed {
                 defect: self.scratch.progress[index].defect,
                 time: view.state.time.value + view.step,
@@ -147,7 +150,7 @@ fn turned<const D: usize>(place: &Place<D>, rigid: &Rigid<D>, h: f64) -> [[f64; 
     let [position, momentum] = &place.past.start;
     let speed = rigid.omega.square().sqrt();
     let per = if speed > 0.0 { speed } else { 1.0 };
-    let about = rigid.omega.map(0.0, |w| w / per);
+    let about = rigid.omega.over(per);
     let mut along = [0.0; D];
     add(&mut along, place.mass, &rigid.velocity);
     let mut way = rotated(&rigid.origin.arm(position), &about, speed * h);

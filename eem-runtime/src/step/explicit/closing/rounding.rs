@@ -43,11 +43,11 @@
 //! rounding is corrected. The work of moved anchors changes the prestress, which a debt would outlive.
 
 use super::super::accounts::Accounts;
-use super::super::{Explicit, ExplicitView};
+use super::super::bodies::Bodies;
+use super::super::memory::Motion;
 use super::{FROZEN, Status};
-use crate::algebra::{difference, dot, size};
-use crate::element::group::{ComponentEnergy, points};
-use crate::element::state::State;
+use crate::algebra::{dot, size};
+use crate::element::group::ComponentEnergy;
 use eem_material::number::scalar::Scalar;
 
 impl Accounts {
@@ -66,22 +66,20 @@ impl Accounts {
         }
         is_closed
     }
-}
 
-impl<const D: usize> Explicit<D> {
     /// Closed if the remaining defect, or what this step adds to it, is rounding, failed otherwise.
-    pub(super) fn unless_rounding(&mut self, index: usize, view: &ExplicitView<'_, D>) -> Status {
+    pub(super) fn unless_rounding(&mut self, bodies: &dyn Bodies, index: usize) -> Status {
         let mut progress = self.scratch.progress[index];
         let (defect, scale) = (progress.defect, progress.scale);
         let is_rounding =
             |defect: f64, terms: f64| defect.abs() <= FROZEN * f64::EPSILON * (scale + terms);
-        progress.granularity = self.granularity(index);
+        progress.granularity = self.granularity(bodies, index);
         progress.is_closed = is_rounding(defect, progress.granularity);
         if !progress.is_closed {
-            progress.granularity += self.terms_at_rest(index, view);
+            progress.granularity += self.terms_at_rest(bodies, index);
             progress.is_forgiven = is_rounding(defect, progress.granularity);
             if !progress.is_forgiven && self.is_driven {
-                progress.debt = self.debt(index, view.state);
+                progress.debt = self.debt(bodies, index);
                 progress.is_forgiven = is_rounding(defect - progress.debt, progress.granularity);
             }
             progress.is_closed = progress.is_forgiven;
@@ -96,19 +94,20 @@ impl<const D: usize> Explicit<D> {
 
     /// The defect of the energy of a component at the start of the step, J.
     #[cold]
-    fn debt(&mut self, index: usize, start: &State) -> f64 {
+    fn debt(&mut self, bodies: &dyn Bodies, index: usize) -> f64 {
         let (motion, energy) = (self.motions[index], self.scratch.energies[index]);
-        self.swap_start(index);
-        self.look_at_motion(index);
-        self.swap_start(index);
-        let mut inner = ComponentEnergy::default();
-        for energy in self.components.energies_in(start, index) {
+        let (mut of_masses, mut inner) = (Motion::default(), ComponentEnergy::default());
+        for at in self.components.all[index].masses.clone() {
+            let place = bodies.at(at);
+            of_masses.add_energy(place.start, place.force, place.per_mass);
+        }
+        for energy in self.components.energies_in(bodies.view().state, index) {
             inner.add(energy);
         }
-        self.scratch.energies[index] = inner;
-        self.accounts.swap_books();
-        let [debt, _] = self.defect_of(index, &self.motions[index].energy);
-        self.accounts.swap_books();
+        (self.motions[index], self.scratch.energies[index]) = (of_masses, inner);
+        self.swap_books();
+        let [debt, _] = self.defect_of(index);
+        self.swap_books();
         (self.motions[index], self.scratch.energies[index]) = (motion, energy);
         debt
     }
@@ -117,23 +116,37 @@ impl<const D: usize> Explicit<D> {
     #[cold]
     pub(in super::super) fn explained(
         &mut self,
+        bodies: &dyn Bodies,
         index: usize,
         magnitude: f64,
-        view: &ExplicitView<'_, D>,
     ) -> f64 {
         self.scratch.needs_forces.fill(false);
         self.scratch.needs_forces[index] = true;
-        self.find_forces();
-        let terms = self.granularity(index) + self.terms_at_rest(index, view);
+        self.find_forces(bodies);
+        let terms = self.granularity(bodies, index) + self.terms_at_rest(bodies, index);
         FROZEN * f64::EPSILON * (magnitude + terms)
     }
 
+    /// Finds the constant forces and those of elements in the components that need them: the negative gradient of the energy.
+    pub(super) fn find_forces(&mut self, bodies: &dyn Bodies) {
+        let scratch = &mut self.scratch;
+        bodies.find_forces(
+            &scratch.needs_forces,
+            &mut scratch.forces,
+            &mut scratch.creep,
+        );
+    }
+
+    /// The force on a place that was found, N.
+    fn force(&self, place: usize) -> &[f64] {
+        &self.scratch.forces[place * self.dimension..][..self.dimension]
+    }
+
     /// `Σ |F||q|`: times ε, the error of the energy by rounding of positions, J.
-    fn granularity(&self, index: usize) -> f64 {
+    fn granularity(&self, bodies: &dyn Bodies, index: usize) -> f64 {
         let mut sum = 0.0;
         for at in self.components.all[index].masses.clone() {
-            let q = self.places[at].q();
-            for (force, q) in self.forces[at].iter().zip(q) {
+            for (force, q) in self.force(at).iter().zip(bodies.at(at).q) {
                 sum += (force * q).abs();
             }
         }
@@ -142,8 +155,9 @@ impl<const D: usize> Explicit<D> {
 
     /// The terms that do not vanish with the energy, J.
     #[cold]
-    fn terms_at_rest(&mut self, index: usize, view: &ExplicitView<'_, D>) -> f64 {
-        self.find_stiffnesses(view);
+    fn terms_at_rest(&mut self, bodies: &dyn Bodies, index: usize) -> f64 {
+        let view = bodies.view();
+        self.find_stiffnesses(bodies);
         let mut sum = self.scratch.energies[index].excess;
         if let Some(loads) = self.load_sums.get(index) {
             sum += (view.step * loads.work).abs() + 0.5 / FROZEN * loads.noise;
@@ -151,19 +165,22 @@ impl<const D: usize> Explicit<D> {
         for energy in self.components.energies_in(view.state, index) {
             sum += energy.excess;
         }
-        for (at, place) in self.places.iter().enumerate() {
+        for (at, &node) in self.components.nodes.iter().enumerate() {
             if self.components.of_place[at] != index {
                 continue;
             }
-            let node = self.components.nodes[at];
-            let old = points::<D>(view.state.positions.values())[node];
-            let way = difference(place.q(), &old);
-            let position = size(place.q());
+            let place = bodies.at(at);
+            let old = &view.state.positions.values()[node * self.dimension..];
+            let mut way = 0.0;
+            for (q, old) in place.q.iter().zip(old) {
+                way += (q - old).abs();
+            }
+            let position = size(place.q);
             let stiffness = self.scratch.stiffnesses[node];
-            sum += stiffness * position * (size(&way) + f64::EPSILON * position);
+            sum += stiffness * position * (way + f64::EPSILON * position);
             if place.mass > 0.0 {
-                let start = &place.past.start[1];
-                sum += 0.5 * dot(start, start) * place.per_mass();
+                let start = place.start[1];
+                sum += 0.5 * dot(start, start) * place.per_mass;
             }
         }
         for dashpot in self.components.dashpots_of(index) {
@@ -171,49 +188,47 @@ impl<const D: usize> Explicit<D> {
             let way = (now - self.stage.inner_start(dashpot)).abs();
             sum += self.scratch.pulls[dashpot] * (way + f64::EPSILON * now.abs());
         }
-        sum + self.rounding_of_work(index, view) / (FROZEN * f64::EPSILON)
+        sum + self.rounding_of_work(bodies, index) / (FROZEN * f64::EPSILON)
     }
 
     /// The work that the rounding of loads explains, J: of the impulses on masses and of the positions of moved anchors.
-    fn rounding_of_work(&mut self, index: usize, view: &ExplicitView<'_, D>) -> f64 {
-        self.find_rounding(view);
+    fn rounding_of_work(&mut self, bodies: &dyn Bodies, index: usize) -> f64 {
+        self.find_rounding(bodies);
         if self.rounding.is_none() {
             return 0.0;
         }
-        let length = |vector: &[f64; D]| dot(vector, vector).sqrt();
+        let length = |vector: &[f64]| dot(vector, vector).sqrt();
         let mut sum = 0.0;
         for at in self.components.all[index].masses.clone() {
-            let (place, node) = (&self.places[at], self.components.nodes[at]);
-            let impulse = self.rounding.at(node).impulse;
-            let momenta = length(&place.past.start[1]) + length(place.p()) + impulse;
-            sum += impulse * momenta * place.per_mass();
+            let (place, rounding) = (bodies.at(at), self.rounding.at(self.components.nodes[at]));
+            let impulse = rounding.impulse;
+            let momenta = length(place.start[1]) + length(place.p) + impulse;
+            sum += impulse * momenta * place.per_mass;
             // The force of the springs is that on the mass less the constant one.
-            let force = length(&self.forces[at]) + length(&place.force);
-            sum += force * self.rounding.at(node).pull;
+            let force = length(self.force(at)) + length(place.force);
+            sum += force * rounding.pull;
         }
         sum
     }
 
     /// Finds the stiffnesses of the elements at each node, and the terms of the force of each dashpot, once in a step.
-    fn find_stiffnesses(&mut self, view: &ExplicitView<'_, D>) {
+    fn find_stiffnesses(&mut self, bodies: &dyn Bodies) {
         if self.scratch.has_stiffnesses {
             return;
         }
         self.scratch.has_stiffnesses = true;
-        let scratch = &mut self.accounts.scratch;
-        let (sums, pulls) = (&mut scratch.stiffnesses, &mut scratch.pulls);
+        let (sums, pulls) = (&mut self.scratch.stiffnesses, &mut self.scratch.pulls);
         sums.fill(0.0);
-        let positions = points::<D>(view.state.positions.values());
-        for group in &self.groups {
-            group.elements().stiffness(view.state, &mut |point| {
-                let mut coordinates = 0.0;
-                for &node in point.nodes {
-                    sums[node as usize] += point.elastic;
-                    coordinates += size(&positions[node as usize]);
-                }
-                let [by_nodes, own] = point.pull;
-                pulls[point.dashpots].fill(by_nodes * coordinates + own);
-            });
-        }
+        let (positions, d) = (bodies.view().state.positions.values(), self.dimension);
+        bodies.see_stiffnesses(&mut |point| {
+            let mut coordinates = 0.0;
+            for &node in point.nodes {
+                let node = node as usize;
+                sums[node] += point.elastic;
+                coordinates += size(&positions[node * d..][..d]);
+            }
+            let [by_nodes, own] = point.pull;
+            pulls[point.dashpots].fill(by_nodes * coordinates + own);
+        });
     }
 }

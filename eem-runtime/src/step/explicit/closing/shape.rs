@@ -1,12 +1,13 @@
 //! Corrections of the energy by motion, by shape and, as a last resort, by entropy.
 
 use super::super::accounts::Accounts;
-use super::super::components::{Component, Support};
+use super::super::components::Support;
 use super::super::demand::Demand;
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
 use super::{MOST_ITERATIONS, Status};
 use crate::algebra::{add, dot};
+use crate::element::group::points;
 use crate::element::state::State;
 use eem_material::number::scalar::Scalar;
 
@@ -39,10 +40,14 @@ struct Means<const D: usize> {
 }
 
 impl Accounts {
-    /// `Σ 2hκ(Δθ)²/(θ_a + θ_b)` of the paths without a thermostat at an end, J.
-    fn exchange(&self, component: &Component, h: f64) -> f64 {
+    /// `h Σ g²/η + Σ 2hκ(Δθ)²/(θ_a + θ_b)` of dashpots, and of paths without a thermostat at an end, J.
+    fn flow(&self, index: usize, h: f64) -> f64 {
+        let mut creep = 0.0;
+        for dashpot in self.components.dashpots_of(index) {
+            creep += self.scratch.creep[dashpot][1];
+        }
         let mut sum = 0.0;
-        for path in &self.components.paths[component.paths.clone()] {
+        for path in &self.components.paths[self.components.all[index].paths.clone()] {
             let ends = path.ends;
             let [a, b] = [self.stage.theta(ends[0]), self.stage.theta(ends[1])];
             if !self.meets_thermostat(ends) {
@@ -51,15 +56,18 @@ impl Accounts {
                 sum += heat * drop / (a + b);
             }
         }
-        sum
+        h * creep + sum
     }
 
     fn meets_thermostat(&self, ends: [usize; 2]) -> bool {
         ends.into_iter().any(|end| self.stage.is_held(end))
     }
 
-    /// Moves entropy from the warmer to the cooler end of each path, without production.
-    fn exchange_heat(&mut self, index: usize, duration: f64, next: &mut State) {
+    /// Lets dashpots creep for this time, and moves entropy from the warmer to the cooler end of each path, without production.
+    fn flow_for(&mut self, index: usize, duration: f64, next: &mut State) {
+        for dashpot in self.components.dashpots_of(index) {
+            self.stage.inner[dashpot] -= duration * self.scratch.creep[dashpot][0];
+        }
         let first = self.components.first_reservoir;
         for path in &self.components.paths[self.components.all[index].paths.clone()] {
             let ends = path.ends;
@@ -184,13 +192,14 @@ impl<const D: usize> Explicit<D> {
         if iterations < MOST_ITERATIONS && self.sink(index, defect, next) {
             return Status::Changed;
         }
-        self.unless_rounding(index, view)
+        let (accounts, bodies) = self.parts(view);
+        accounts.unless_rounding(&bodies, index)
     }
 
     fn means(&self, index: usize, view: &ExplicitView<'_, D>) -> Means<D> {
         let (component, h) = (&self.components.all[index], view.step);
         let rigid = self.rigid(index);
-        let forces = &self.forces;
+        let forces = points::<D>(&self.scratch.forces);
         let mut drift = [0.0; D];
         if component.support == Support::Free {
             for place in component.masses.clone() {
@@ -212,9 +221,7 @@ impl<const D: usize> Explicit<D> {
             shape += dot(&force, &force) * per_mass;
         }
         means.all = means.motion + means.motion + h * h * shape;
-        let dashpots = self.components.dashpots_of(index);
-        let creep = dashpots.fold(0.0, |sum, dashpot| sum + self.scratch.creep[dashpot][1]);
-        means.all += h * creep + self.exchange(component, h);
+        means.all += self.flow(index, h);
         means
     }
 
@@ -234,7 +241,7 @@ impl<const D: usize> Explicit<D> {
         let (place, rigid) = (&self.places[at], &means.rigid);
         let arm = rigid.origin.arm(place.q());
         let toward = rigid.omega.turn(&rigid.omega.turn(&arm));
-        let mut force = self.forces[at];
+        let mut force = points::<D>(&self.scratch.forces)[at];
         add(&mut force, -place.mass, &toward);
         add(&mut force, -place.mass, &means.drift);
         force
@@ -260,9 +267,6 @@ impl<const D: usize> Explicit<D> {
             add(&mut place.now[1], share, &own);
             add(&mut place.now[0], -change, &force);
         }
-        for dashpot in self.accounts.components.dashpots_of(index) {
-            self.accounts.stage.inner[dashpot] -= share * h * self.scratch.creep[dashpot][0];
-        }
-        self.exchange_heat(index, share * h, next);
+        self.flow_for(index, share * h, next);
     }
 }
