@@ -55,8 +55,11 @@ fn thermo_visco_elastic(model: &ThermoViscoElastic) -> ThermalSpring1 {
     fields.named("ThermoViscoElastic").unwrap().model().unwrap()
 }
 
+/// The viscosity of [`OneDashpot`].
+const CREEP: &str = "eta * exp(a * (1 / theta - 1 / theta_ref))";
+
 fn one_dashpot(model: &OneDashpot) -> ThermalSpring1 {
-    with_viscosity(model, "eta * exp(a * (1 / theta - 1 / theta_ref))")
+    with_viscosity(model, CREEP)
 }
 
 fn with_viscosity(model: &OneDashpot, viscosity: &str) -> ThermalSpring1 {
@@ -282,7 +285,7 @@ fn a_spring_with_room_for_more_dashpots_has_the_bits_of_the_derived_one() {
 
 #[test]
 fn a_spring_of_a_larger_type_than_it_needs_has_the_same_bits() {
-    let law = maxwell_damper(&ONE_DASHPOT, "eta");
+    let law = maxwell_damper(&ONE_DASHPOT, CREEP);
     let steps = (at_length(100, 30), 0.02);
     let own = single::<ThermalSpring1>(law.model().unwrap());
     let few = single::<DampedSpring>(law.model().unwrap());

@@ -8,7 +8,7 @@
 //! | change the scene, or what is measured | `pendulum.rs` |
 //! | add an example | `examples.rs` |
 //! | change what the page asks for | `page.rs`, then its caller `page/module.js` |
-//! | add a function that the page calls | `module/src/lib.rs` |
+//! | add a function that the page calls | the crate in the folder `module` |
 
 pub mod examples;
 pub mod page;
