@@ -56,7 +56,7 @@ impl Base {
 /// Operations return `None` if an exponent does not fit 128-bit rationals.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Unit {
-    /// No exponent is zero.
+    /// No exponent is zero. Filled one by one: `collect` would be compiled with a sort for each iterator.
     exponents: BTreeMap<Base, Rational>,
 }
 
@@ -68,11 +68,13 @@ impl Unit {
 
     /// `baseⁿ …`
     pub(crate) fn of(powers: impl IntoIterator<Item = (Base, i64)>) -> Self {
-        let powers = powers.into_iter().filter(|&(_, exponent)| exponent != 0);
-        let exponents = powers.map(|(base, exponent)| (base, Rational::integer(exponent)));
-        Self {
-            exponents: exponents.collect(),
+        let mut unit = Self::one();
+        for (base, exponent) in powers {
+            if exponent != 0 {
+                unit.exponents.insert(base, Rational::integer(exponent));
+            }
         }
+        unit
     }
 
     /// The unknown unit of field `index`.
@@ -125,11 +127,11 @@ impl Unit {
         if exponent.is_zero() {
             return Some(Self::one());
         }
-        let powers = self.exponents.iter();
-        let powers = powers.map(|(&base, e)| Some((base, e.checked_mul(exponent)?)));
-        Some(Self {
-            exponents: powers.collect::<Option<_>>()?,
-        })
+        let mut power = self.clone();
+        for own in power.exponents.values_mut() {
+            *own = own.checked_mul(exponent)?;
+        }
+        Some(power)
     }
 
     /// The size of the unit in its coherent SI unit: 1000 for kN/m.
@@ -156,10 +158,13 @@ impl Unit {
     }
 
     fn part(&self, belongs: impl Fn(Base) -> bool) -> Self {
-        let powers = self.exponents.iter().filter(|&(&base, _)| belongs(base));
-        Self {
-            exponents: powers.map(|(&base, &exponent)| (base, exponent)).collect(),
+        let mut part = Self::one();
+        for (&base, &exponent) in &self.exponents {
+            if belongs(base) {
+                part.exponents.insert(base, exponent);
+            }
         }
+        part
     }
 }
 

@@ -78,7 +78,7 @@ impl Functions {
         let is_thermal = programs.caloric.is_some();
         let most = all.kept();
         let at_temperature = |program: &Program| {
-            Staged::new(program, &parameters, variables - 1, |kept| {
+            Staged::new(program, &parameters, variables - 1, &|kept| {
                 kept.len() <= KEPT
             })
         };
@@ -92,13 +92,13 @@ impl Functions {
             }
             let fits = |_: &[Value]| count <= most;
             let mixed = programs.mixed_states.as_ref();
-            let mixed = mixed.map(|mixed| Staged::new(mixed, &parameters, variables, fits));
-            let form = Form::new(form, &parameters, [variables, responses], fits)?;
+            let mixed = mixed.map(|mixed| Staged::new(mixed, &parameters, variables, &fits));
+            let form = Form::new(form, &parameters, [variables, responses], &fits)?;
             (form, mixed.transpose()?)
         };
         let temperature_form = programs.temperature_form.as_ref().map(|form| {
             let fits = |kept: &[Value]| kept.len() <= most;
-            Form::new(form, &parameters, [variables, responses], fits)
+            Form::new(form, &parameters, [variables, responses], &fits)
         });
         Ok(Self {
             name,

@@ -12,7 +12,7 @@ use eem_symbolic::Model;
 use crate::error::LawError;
 use crate::functions::Functions;
 use crate::names::{NAMELESS, name};
-use crate::shape::{Measures, Shape};
+use crate::shape::{Measures, Shape, Size};
 use crate::typed::Typed;
 
 /// A material of texts and values, from which springs and solids are made.
@@ -63,8 +63,8 @@ pub struct Law {
     /// In the order of the parameters of the model.
     values: Arc<[f64]>,
     name: &'static &'static str,
-    /// Made at the first request.
-    made: Arc<OnceLock<Arc<Functions>>>,
+    /// Made at the first request, for each size of a type.
+    made: Arc<[OnceLock<Arc<Functions>>; Size::ALL.len()]>,
 }
 
 impl Law {
@@ -223,7 +223,7 @@ impl Law {
                 variables,
             });
         }
-        let functions = self.functions()?;
+        let functions = self.functions(self.shape().least_size())?;
         let states = states.chunks(variables);
         Ok(states
             .flat_map(|x| of(&functions, &functions.spread(x)))
@@ -297,22 +297,21 @@ impl Law {
         &self,
     ) -> Result<Typed<H, N, K, V, D, C, R, O>, LawError> {
         let [law, material] = [self.shape(), Typed::<H, N, K, V, D, C, R, O>::SHAPE];
-        if !material.takes(&law) {
-            return Err(LawError::Shape {
-                law: law.to_string(),
-                material: material.of_type(),
-            });
-        }
-        self.functions().map(Typed::new)
+        let size = material.size_for(&law).ok_or_else(|| LawError::Shape {
+            law: law.to_string(),
+            material: material.of_type(),
+        })?;
+        self.functions(size).map(Typed::new)
     }
 
     pub(crate) fn shape(&self) -> Shape {
         Shape::of(&self.compiled)
     }
 
-    /// The tapes.
-    fn functions(&self) -> Result<Arc<Functions>, LawError> {
-        if let Some(functions) = self.made.get() {
+    /// The tapes for a type of this size.
+    fn functions(&self, size: Size) -> Result<Arc<Functions>, LawError> {
+        let made = &self.made[size as usize];
+        if let Some(functions) = made.get() {
             return Ok(Arc::clone(functions));
         }
         let programs = self.compiled.programs().map_err(LawError::Programs)?;
@@ -325,9 +324,9 @@ impl Law {
             measures,
             texts,
             self.values.to_vec(),
-            [&shape, &shape.with_room()],
+            [&shape, &shape.of_size(size)],
         )?;
-        Ok(Arc::clone(self.made.get_or_init(|| Arc::new(functions))))
+        Ok(Arc::clone(made.get_or_init(|| Arc::new(functions))))
     }
 
     /// The strains of a solid, as the runtime names them.

@@ -55,6 +55,21 @@ pub const MOST_DASHPOTS: usize = 8;
 /// The most dashpots in series of a spring with fewer numbers to compute.
 const FEW_DASHPOTS: usize = 2;
 
+/// The sizes of types of materials, of which a spring may have a larger one than it needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Size {
+    /// The numbers of the law.
+    Own,
+    /// Room for a temperature, a dashpot in parallel, and two in series.
+    Few,
+    /// Likewise, and [`MOST_DASHPOTS`] in series.
+    Many,
+}
+
+impl Size {
+    pub(crate) const ALL: [Self; 3] = [Self::Own, Self::Few, Self::Many];
+}
+
 /// How many variables and viscosities of each kind a law has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Shape {
@@ -85,21 +100,30 @@ impl Shape {
         }
     }
 
-    /// The shape of the type of its materials. Solids, and the springs whose groups are compiled with the runtime, have exactly the
-    /// numbers of the law; other springs have room for a temperature, one dashpot in parallel, and two or [`MOST_DASHPOTS`] in series.
-    pub(crate) fn with_room(self) -> Self {
-        if self.strains > 0 || self.is_exact_spring() {
-            return self;
-        }
+    /// The shape of a type of its materials.
+    pub(crate) fn of_size(self, size: Size) -> Self {
+        let dashpots = match size {
+            Size::Own => return self,
+            Size::Few => FEW_DASHPOTS,
+            Size::Many => MOST_DASHPOTS,
+        };
         Self {
-            dashpots: if self.dashpots <= FEW_DASHPOTS {
-                FEW_DASHPOTS
-            } else {
-                self.dashpots.max(MOST_DASHPOTS)
-            },
+            dashpots: self.dashpots.max(dashpots),
             drag: 1,
             thermal: true,
             ..self
+        }
+    }
+
+    /// The smallest type of its materials: with its own numbers for solids, and for the springs whose groups are compiled with the
+    /// runtime.
+    pub(crate) fn least_size(&self) -> Size {
+        if self.strains > 0 || self.is_exact_spring() {
+            Size::Own
+        } else if self.dashpots <= FEW_DASHPOTS {
+            Size::Few
+        } else {
+            Size::Many
         }
     }
 
@@ -120,9 +144,11 @@ impl Shape {
         }
     }
 
-    /// Whether a type of this shape has materials of a law.
-    pub(crate) fn takes(&self, law: &Self) -> bool {
-        law.with_room() == *self
+    /// Which of the types of a law has this shape, if one has.
+    pub(crate) fn size_for(&self, law: &Self) -> Option<Size> {
+        let least = law.least_size();
+        let mut sizes = Size::ALL.into_iter().filter(|&size| size >= least);
+        sizes.find(|&size| law.of_size(size) == *self)
     }
 
     /// Number of variables: measures, dashpots, temperature.
@@ -161,13 +187,9 @@ impl Shape {
         if self.strains > 0 || self.is_exact_spring() {
             return self.to_string();
         }
-        let others = "`Spring0`, `ThermalSpring0` or `ThermalSpring1`";
-        let dashpots = match self.dashpots {
-            FEW_DASHPOTS => format!("at most {FEW_DASHPOTS} dashpots"),
-            most => format!("{} to {most} dashpots", FEW_DASHPOTS + 1),
-        };
+        let dashpots = self.dashpots;
         format!(
-            "1 stretch, {dashpots} in series, at most 1 beside, at most 1 temperature, but none that {others} has"
+            "1 stretch, at most {dashpots} dashpots in series, at most 1 beside, at most 1 temperature"
         )
     }
 }

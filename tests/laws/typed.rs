@@ -55,11 +55,18 @@ fn thermo_visco_elastic(model: &ThermoViscoElastic) -> ThermalSpring1 {
     fields.named("ThermoViscoElastic").unwrap().model().unwrap()
 }
 
+/// The viscosity of [`OneDashpot`].
+const CREEP: &str = "eta * exp(a * (1 / theta - 1 / theta_ref))";
+
 fn one_dashpot(model: &OneDashpot) -> ThermalSpring1 {
-    with_viscosity(model, "eta * exp(a * (1 / theta - 1 / theta_ref))")
+    with_viscosity(model, CREEP)
 }
 
 fn with_viscosity(model: &OneDashpot, viscosity: &str) -> ThermalSpring1 {
+    maxwell_damper(model, viscosity).model().unwrap()
+}
+
+fn maxwell_damper(model: &OneDashpot, viscosity: &str) -> Law {
     let source = Source::new(
         "|lambda: Stretch, gamma: Viscous, theta: Temperature| {
             let strain = ln(lambda / natural_length);
@@ -83,7 +90,7 @@ fn with_viscosity(model: &OneDashpot, viscosity: &str) -> ThermalSpring1 {
             eta
         ]
     );
-    fields.named("MaxwellDamper").unwrap().model().unwrap()
+    fields.named("MaxwellDamper").unwrap()
 }
 
 fn logarithmic_stiffness(model: &LogarithmicStiffness) -> ThermalSpring0 {
@@ -274,6 +281,20 @@ fn a_spring_with_room_for_more_dashpots_has_the_bits_of_the_derived_one() {
     let typed: Spring8 = three_dashpots(&model).model().unwrap();
     let steps = (at_length(200, 30), 0.02);
     assert_same_bits([&single(model), &single(typed)], schemes(), steps);
+}
+
+#[test]
+fn a_spring_of_a_larger_type_than_it_needs_has_the_same_bits() {
+    let law = maxwell_damper(&ONE_DASHPOT, CREEP);
+    let steps = (at_length(100, 30), 0.02);
+    let own = single::<ThermalSpring1>(law.model().unwrap());
+    let few = single::<DampedSpring>(law.model().unwrap());
+    let many = single::<Spring8>(law.model().unwrap());
+    for larger in [&few, &many] {
+        assert_same_bits([&own, larger], schemes(), steps);
+    }
+    let smaller: Result<DampedSpring, _> = three_dashpots(&ThreeDashpots::DATA).model();
+    assert!(smaller.is_err());
 }
 
 /// The same of dashpots in parallel, one of them in a spring without temperature.

@@ -1,4 +1,4 @@
-//! A pendulum of a material from a text, stepped with several schemes: the module behind the page in the browser.
+//! A pendulum of a material from a text, stepped with several schemes: what is behind the page in the browser.
 //!
 //! # Where to change what
 //!
@@ -8,9 +8,8 @@
 //! | change the scene, or what is measured | `pendulum.rs` |
 //! | add an example | `examples.rs` |
 //! | change what the page asks for | `page.rs`, then its caller `page/module.js` |
-//! | add a function that the page calls | `boundary.rs` |
+//! | add a function that the page calls | the crate in the folder `module` |
 
-mod boundary;
 pub mod examples;
 pub mod page;
 pub mod pendulum;

@@ -12,7 +12,7 @@
 
 use std::ops::Range;
 
-use eem::typed::{Compiled, Fault, Faults, Law, LawError, Level, Part, Source, compile};
+use eem_typed::{Compiled, Fault, Faults, Law, LawError, Level, Part, Source, compile};
 use serde::Serialize;
 
 /// Before the law of a dashpot.

@@ -1,10 +1,9 @@
 //! The surface of a mesh, and the areas and volumes of its nodes, `∫ N_a dA` and `∫ N_a dV`.
 
-use core::convert::Infallible;
-
+use super::Mesh;
 use super::error::MeshError;
 use super::face::{Face, Outline};
-use super::{Mesh, sides};
+use super::sides::with_cells;
 use crate::integrals;
 use crate::shape::Shape;
 use crate::tensor::Symmetric;
@@ -110,9 +109,11 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
 
     /// Calls a function with the faces of all cells, those with the same nodes together.
     pub(super) fn for_same_sides(&self, mut show: impl FnMut(&[[usize; 2]])) {
-        let Ok(()) = sides::for_same::<H, D, Infallible>(&self.cells, self.nodes.len(), |same| {
-            show(same);
-            Ok(())
+        with_cells::<H, D, _>(&self.cells, |cells| {
+            cells.for_same(self.nodes.len(), &mut |same| {
+                show(same);
+                true
+            });
         });
     }
 }

@@ -2,7 +2,7 @@
 
 use super::error::MeshError;
 use super::geometry::power_of_two;
-use super::sides;
+use super::sides::{Cells, with_cells};
 use crate::integrals;
 use crate::shape::Shape;
 use crate::tensor::Symmetric;
@@ -20,7 +20,7 @@ pub(super) fn check<H: Shape<D>, const D: usize>(
     check_finite(nodes)?;
     check_distinct(nodes)?;
     check_sizes::<H, D>(nodes, cells)?;
-    sides::for_same::<H, D, _>(cells, nodes.len(), |same| check_same::<H, D>(cells, same))
+    with_cells::<H, D, _>(cells, |cells| check_faces(cells, nodes.len()))
 }
 
 /// An error unless `det ∂X/∂ξ` is positive at all points and nodes, and so everywhere in a quadrilateral of four nodes.
@@ -93,16 +93,23 @@ fn scaled_size<H: Shape<D>, const D: usize>(
 }
 
 /// An error unless at most two faces of cells have the same nodes, and face each other.
-fn check_same<H: Shape<D>, const D: usize>(
-    cells: &[H::PerNode<usize>],
-    same: &[[usize; 2]],
-) -> Result<(), MeshError> {
+fn check_faces(cells: &Cells<'_>, nodes: usize) -> Result<(), MeshError> {
+    let mut found = Ok(());
+    cells.for_same(nodes, &mut |same| {
+        found = check_same(cells, same);
+        found.is_ok()
+    });
+    found
+}
+
+/// The same of faces with the same nodes.
+fn check_same(cells: &Cells<'_>, same: &[[usize; 2]]) -> Result<(), MeshError> {
     let &[first, second, ref more @ ..] = same else {
         return Ok(());
     };
     let pair = [first[0], second[0]];
     let all_nodes = |cell: usize| {
-        let mut all = cells[cell].as_ref().to_vec();
+        let mut all = cells.nodes_of(cell).to_vec();
         all.sort_unstable();
         all
     };
@@ -111,10 +118,10 @@ fn check_same<H: Shape<D>, const D: usize>(
     }
     // The corners counterclockwise, seen from outside.
     let corners = |[cell, face]: [usize; 2]| {
-        let corners = H::FACES[face].iter().take(1 << (D - 1));
-        let mut corners: Vec<usize> = corners.map(|&node| cells[cell].as_ref()[node]).collect();
+        let corners = cells.faces[face].iter().take(1 << (cells.dimensions - 1));
+        let mut corners: Vec<usize> = corners.map(|&node| cells.nodes_of(cell)[node]).collect();
         // Around a face in space, from the one with the least number.
-        if D == 3 {
+        if cells.dimensions == 3 {
             let least = (0..corners.len()).min_by_key(|&at| corners[at]);
             corners.rotate_left(least.unwrap_or_default());
         }
@@ -170,15 +177,22 @@ pub(super) fn check_finite<const D: usize>(nodes: &[[f64; D]]) -> Result<(), Mes
 
 /// An error if two nodes have the same position.
 fn check_distinct<const D: usize>(nodes: &[[f64; D]]) -> Result<(), MeshError> {
-    // −0 and 0 are the same.
-    let key = |&node: &usize| nodes[node].map(|coordinate| (coordinate + 0.0).to_bits());
-    let mut order: Vec<usize> = (0..nodes.len()).collect();
-    order.sort_by_key(key);
-    let mut pairs = order.windows(2);
-    match pairs.find(|pair| key(&pair[0]) == key(&pair[1])) {
-        Some(pair) => Err(MeshError::Duplicate {
-            nodes: [pair[0], pair[1]],
-        }),
+    match first_pair(nodes.as_flattened(), D) {
+        Some(nodes) => Err(MeshError::Duplicate { nodes }),
         None => Ok(()),
     }
+}
+
+/// The first two nodes with the same coordinates in a list of them, by the bits of these. Compiled once for all dimensions.
+fn first_pair(coordinates: &[f64], dimensions: usize) -> Option<[usize; 2]> {
+    let key = |node: usize| {
+        let place = &coordinates[node * dimensions..][..dimensions];
+        // −0 and 0 are the same.
+        place.iter().map(|coordinate| (coordinate + 0.0).to_bits())
+    };
+    let mut order: Vec<usize> = (0..coordinates.len() / dimensions).collect();
+    order.sort_unstable_by(|&a, &b| key(a).cmp(key(b)).then(a.cmp(&b)));
+    let mut pairs = order.windows(2);
+    let pair = pairs.find(|pair| key(pair[0]).eq(key(pair[1])))?;
+    Some([pair[0], pair[1]])
 }

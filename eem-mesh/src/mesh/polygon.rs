@@ -1,7 +1,5 @@
 //! Meshes of polygons, and refinement.
 
-use std::collections::BTreeMap;
-
 use super::Mesh;
 use super::check::check_finite;
 use super::error::MeshError;
@@ -81,16 +79,16 @@ impl Mesh<Quad4, 2> {
 struct Division {
     nodes: Vec<[f64; 2]>,
     cells: Vec<[usize; 4]>,
-    /// The node in the middle of each edge.
-    middles: BTreeMap<[usize; 2], usize>,
+    /// For each of the first nodes its edges to later ones: the other end, and the node in the middle.
+    edges: Vec<Vec<[usize; 2]>>,
 }
 
 impl Division {
-    const fn of(nodes: Vec<[f64; 2]>) -> Self {
+    fn of(nodes: Vec<[f64; 2]>) -> Self {
         Self {
+            edges: vec![Vec::new(); nodes.len()],
             nodes,
             cells: Vec::new(),
-            middles: BTreeMap::new(),
         }
     }
 
@@ -109,11 +107,14 @@ impl Division {
 
     /// The node in the middle of an edge, new if there is none yet.
     fn middle(&mut self, [a, b]: [usize; 2]) -> usize {
-        let nodes = &mut self.nodes;
-        *self.middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
-            nodes.push(mean([nodes[a], nodes[b]]));
-            nodes.len() - 1
-        })
+        let edges = &mut self.edges[a.min(b)];
+        if let Some(&[_, middle]) = edges.iter().find(|edge| edge[0] == a.max(b)) {
+            return middle;
+        }
+        let middle = self.nodes.len();
+        edges.push([a.max(b), middle]);
+        self.nodes.push(mean([self.nodes[a], self.nodes[b]]));
+        middle
     }
 }
 

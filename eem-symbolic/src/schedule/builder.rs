@@ -53,13 +53,13 @@ pub(super) struct Builder<'s> {
 
 impl<'s> Builder<'s> {
     pub(super) fn new(schedule: &'s Schedule<'s>, inputs: Vec<Input>) -> Self {
-        let positions = inputs
-            .iter()
-            .enumerate()
-            .map(|(index, input)| (input.symbol, index));
+        let mut positions = BTreeMap::new();
+        for (index, input) in inputs.iter().enumerate() {
+            positions.insert(input.symbol, index);
+        }
         Self {
             schedule,
-            positions: positions.collect(),
+            positions,
             inputs,
             instructions: Vec::new(),
             of_state: Vec::new(),

@@ -24,15 +24,13 @@ pub(crate) struct Form {
 }
 
 /// The inputs of a program that are not parameters, counted from the first of them.
-pub(super) fn state_inputs(
-    program: &Program,
-    parameters: usize,
-) -> impl Iterator<Item = (Value, usize)> {
+pub(super) fn state_inputs(program: &Program, parameters: usize) -> Vec<(Value, usize)> {
     let instructions = program.instructions.iter().enumerate();
-    instructions.filter_map(move |(value, instruction)| match instruction.operation {
+    let inputs = instructions.filter_map(|(value, instruction)| match instruction.operation {
         Operation::Input(input) => Some((Value::new(value), input.checked_sub(parameters)?)),
         _ => None,
-    })
+    });
+    inputs.collect()
 }
 
 /// The values of the old stage that the new one reads, without those that depend on parameters alone.
@@ -49,7 +47,7 @@ impl Staged {
         program: &Program,
         parameters: &[f64],
         old: usize,
-        fits: impl Fn(&[Value]) -> bool,
+        fits: &dyn Fn(&[Value]) -> bool,
     ) -> Result<Self, LawError> {
         let (staged, _) = Self::with_places(program, parameters, old, fits)?;
         Ok(staged)
@@ -60,31 +58,32 @@ impl Staged {
         program: &Program,
         parameters: &[f64],
         old: usize,
-        fits: impl Fn(&[Value]) -> bool,
+        fits: &dyn Fn(&[Value]) -> bool,
     ) -> Result<(Self, Places), LawError> {
         let folded = fold(program, parameters);
-        let inputs: Vec<_> = state_inputs(program, parameters.len()).collect();
-        let old_inputs = || inputs.iter().copied().filter(|&(_, input)| input < old);
+        let mut old_inputs = state_inputs(program, parameters.len());
+        old_inputs.retain(|&(_, input)| input < old);
         let mut values = kept(program, parameters);
         if !fits(&values) {
-            values = old_inputs().map(|(value, _)| value).collect();
+            values = old_inputs.iter().map(|&(value, _)| value).collect();
         }
         let wanted = Wanted {
             program,
             folded: &folded,
-            known: old_inputs().collect(),
+            known: old_inputs.into_iter().collect(),
             inputs: old,
             outputs: &values,
         };
         let of_old = Tape::new(&wanted)?;
         let all = program.inputs.len() - parameters.len();
+        let kept: Vec<_> = values.iter().copied().zip(0..).collect();
         let places = Places {
-            kept: values.iter().copied().zip(0..).collect(),
+            kept: kept.into_iter().collect(),
             old,
             inputs: values.len() + all - old,
         };
         let wanted = Wanted {
-            known: places.of(program, parameters.len(), Some),
+            known: places.of(program, parameters.len(), &Some),
             inputs: places.inputs,
             outputs: &program.outputs,
             ..wanted
@@ -105,7 +104,7 @@ impl Form {
         program: &Program,
         parameters: &[f64],
         [variables, responses]: [usize; 2],
-        fits: impl Fn(&[Value]) -> bool,
+        fits: &dyn Fn(&[Value]) -> bool,
     ) -> Result<Self, LawError> {
         let (staged, places) = Staged::with_places(program, parameters, variables, fits)?;
         let part = program.restricted_to(responses);
@@ -113,7 +112,7 @@ impl Form {
         let response = Tape::new(&Wanted {
             program: &part.program,
             folded: &fold(&part.program, parameters),
-            known: places.of(&part.program, parameters.len(), origin),
+            known: places.of(&part.program, parameters.len(), &origin),
             inputs: places.inputs,
             outputs: &part.program.outputs,
         })?;
@@ -135,24 +134,27 @@ impl Places {
         &self,
         program: &Program,
         parameters: usize,
-        origin: impl Fn(Value) -> Option<Value>,
+        origin: &dyn Fn(Value) -> Option<Value>,
     ) -> BTreeMap<Value, usize> {
-        let new = state_inputs(program, parameters).filter_map(|(value, input)| {
-            Some((value, self.kept.len() + input.checked_sub(self.old)?))
-        });
         let values = (0..program.instructions.len()).map(Value::new);
         let kept = values.filter_map(|value| Some((value, *self.kept.get(&origin(value)?)?)));
-        kept.chain(new).collect()
+        let mut known: Vec<_> = kept.collect();
+        for (value, input) in state_inputs(program, parameters) {
+            if let Some(input) = input.checked_sub(self.old) {
+                known.push((value, self.kept.len() + input));
+            }
+        }
+        known.into_iter().collect()
     }
 }
 
 /// The tape of a program whose inputs are the parameters and one state.
 pub(super) fn of_state(program: &Program, parameters: &[f64]) -> Result<Tape, LawError> {
-    let known: BTreeMap<Value, usize> = state_inputs(program, parameters.len()).collect();
+    let known = state_inputs(program, parameters.len());
     Tape::new(&Wanted {
         program,
         folded: &fold(program, parameters),
-        known,
+        known: known.into_iter().collect(),
         inputs: program.inputs.len() - parameters.len(),
         outputs: &program.outputs,
     })

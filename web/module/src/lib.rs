@@ -1,4 +1,5 @@
-//! The functions that a page calls by name, and the memory that it reads: texts as UTF-8, samples as `f64`.
+//! The module in the browser: the functions that a page calls by name, and the memory that it reads: texts as UTF-8, samples as
+//! `f64`.
 //!
 //! A call that takes a text reads what the page has written into [`eem_room`]; one that answers with a text leaves it at
 //! [`eem_text`] until the next call.
@@ -10,8 +11,8 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use crate::page::Page;
-use crate::pendulum::SAMPLE;
+use eem_web::page::Page;
+use eem_web::pendulum::SAMPLE;
 
 /// A page, with the texts that go in and out.
 struct Desk {
