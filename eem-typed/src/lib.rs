@@ -39,7 +39,7 @@
 //! | add an operation or an elementary function | `tape/instruction.rs`, `tape/fold.rs`, `tape/lower.rs`: the compiler lists them |
 //! | change which operations are joined, or how registers are allocated | `tape/lower.rs`, `tape/allocate.rs` |
 //! | change what is kept of the old state, and how much | `functions/staged.rs`; `kept` in `shape.rs` |
-//! | evaluate several springs at a time | `run_rows` in `tape.rs`, `typed/together.rs`; the caller is `element/group/together.rs` in `eem-runtime` |
+//! | evaluate several springs at a time | `run_rows` in `tape.rs`, `typed/together.rs`; the caller is `element/group/ahead.rs` in `eem-runtime` |
 //! | change derivatives with respect to parameters | `functions/by_parameters.rs`, their names in `names.rs`; programs are made at the first derivative |
 //! | add a shape | the types of springs, and `solid!`, in `shapes.rs`; what a type says of its law: `shape.rs` |
 //! | change what is at the places of dashpots and of a temperature that a law lacks | `functions/room.rs` |

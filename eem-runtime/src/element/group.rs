@@ -17,6 +17,7 @@ mod ahead;
 mod arms;
 mod audit;
 mod begin;
+mod build;
 mod certify;
 mod closing;
 mod condensed;
@@ -35,7 +36,9 @@ mod kelvin_voigt;
 mod local;
 mod loose;
 mod member;
+mod model_list;
 mod model_points;
+mod models;
 mod modes;
 #[cfg(feature = "gradients")]
 mod past;
@@ -69,7 +72,8 @@ pub(crate) use explicit::{
     UnkeptEntropy, first_reservoir, is_met,
 };
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
-pub(crate) use loose::{LooseElements, identity};
+pub(crate) use loose::LooseElements;
+pub(crate) use model_list::identity;
 #[cfg(feature = "gradients")]
 pub(crate) use point_step::{
     Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights,

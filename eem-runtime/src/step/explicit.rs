@@ -129,7 +129,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// A group of elements.
-    pub(crate) fn elements(&self, group: usize) -> &dyn Elements<D> {
+    pub(crate) fn elements(&self, group: usize) -> &dyn Elements {
         self.groups[group].elements()
     }
 
@@ -139,7 +139,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Calls a function for each group of elements.
-    pub(crate) fn each_mut(&mut self, visit: &mut dyn FnMut(&mut dyn Elements<D>)) {
+    pub(crate) fn each_mut(&mut self, visit: &mut dyn FnMut(&mut dyn Elements)) {
         for group in &mut self.groups {
             visit(group.elements_mut());
         }

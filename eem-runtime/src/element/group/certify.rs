@@ -228,21 +228,20 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
                 }
             }
         }
-        if !self.is_thermal() {
+        let Some(slot) = self.slots().thermal else {
             return;
-        }
+        };
         let theta = self.temperature();
         let taken = theta * self.response[Self::ENTROPY];
         if !self.is_prescribed {
             if !C::is_damped(self.scheme) {
-                tally.see_relaxation(view.thermal_step(), self.settling, capacity);
+                let settling = view.conduction.settling(slot);
+                tally.see_relaxation(view.thermal_step(), settling, capacity);
             }
             let terms = magnitude + theta * received.terms;
             tally.balance(taken - theta * received.entropy, terms);
         }
-        if paths.is_some()
-            && let Some(slot) = self.slots().thermal
-        {
+        if paths.is_some() {
             // A damped temperature is known as well as θ*: Δs is known to ε of the heat capacity.
             let conducting = self.conducting_temperature::<C>(&self.response);
             let terms = self.known_to(Self::TEMPERATURE, sizes, tally.care);

@@ -10,7 +10,6 @@
 
 use super::arms::{add_scaled, change_in, mean, spread};
 use super::certify::sizes_of;
-use super::evaluate::{At, for_points};
 use super::member::{Block, Member};
 use super::placed::{OfGroup, PlacedPoint};
 use super::point::Point;
@@ -23,7 +22,7 @@ use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::conduction::{InterfaceTemperatures, Partner};
 use crate::element::conjugates::{Family, Placement};
 use crate::element::error::StateError;
-use crate::element::group::view::{Along, StepView};
+use crate::element::group::view::{Along, At, StepView};
 use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Measures, Weights};
 use crate::element::state::State;
@@ -88,7 +87,7 @@ impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<
         contacts: &Contacts<K, D>,
         (next, tally): (&mut State, &mut Tally),
     ) -> Result<(), StateError> {
-        let for_points = for_points(at, contacts);
+        let for_points = contacts.for_points(at);
         if !C::IS_EXACT && self.points.is_together() {
             self.close_together(&for_points, next);
         }

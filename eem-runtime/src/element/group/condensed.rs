@@ -1,28 +1,11 @@
 //! Responses of a point as functions of its measures and of the heat that it receives.
 
 use super::point::Point;
+use super::points::CondensedRow;
 use crate::element::conjugates::{Family, Form};
 use crate::element::kinematics::{MeasureSet, Numbers};
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
-
-/// A response with the internal variables eliminated: `value + Σ_a by_measure_a δπ_a − by_heat δr_s`.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct CondensedRow<V> {
-    pub(super) value: f64,
-    pub(super) by_measure: V,
-    pub(super) by_heat: f64,
-}
-
-impl<V: Array<f64>> CondensedRow<V> {
-    pub(super) fn none() -> Self {
-        Self {
-            value: 0.0,
-            by_measure: V::filled(0.0),
-            by_heat: 0.0,
-        }
-    }
-}
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     #[inline]

@@ -50,6 +50,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
         (changes, by_motion): (&Numbers<Q>, f64),
         contact: Option<&HeatContact>,
         solution: &[[f64; 1]],
+        by_factors: bool,
     ) -> f64 {
         let (mut heat, is_coupled) = (0.0, contact.is_some());
         if let Some(contact) = contact {
@@ -85,7 +86,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
             }
         }
         let update = self.scaled_update();
-        self.apply::<C>(1.0);
+        self.apply::<C>(1.0, by_factors);
         update
     }
 

@@ -64,10 +64,12 @@ impl<K: QuadraticStrain<D>, const D: usize> AnyElements<K, D> {
         } else {
             1
         };
-        let places = places::<K, D>(&loose.elements, placed);
         let per_set = per_block * Member::<K, D>::POINTS;
         let of = OfGroup::new(scheme, &loose.models.shape());
-        let sets = loose.models.points(scheme, &places, per_set);
+        let sets = {
+            let mut places = places::<K, D>(&loose.elements, placed);
+            loose.models.points(scheme, &mut places, per_set)
+        };
         Self::with(of, loose, (sets, per_block), placed)
     }
 }
@@ -79,11 +81,14 @@ impl<A: Arrays, const D: usize> ExactSprings<A, D> {
         mut loose: LooseElements<Stretch<D>, D>,
         placed: Placed<'_>,
     ) -> Self {
-        let places = places::<Stretch<D>, D>(&loose.elements, placed);
         let of = OfGroup::new(scheme, &loose.models.shape());
-        let mut models = loose.take_models::<A>().into_iter();
-        let points = ModelPoints::new(scheme, &mut models, &places);
-        let sets = (vec![Box::new(points)], places.len().max(1));
+        let models = loose.take_models::<A>();
+        let count = models.len();
+        let points = {
+            let mut places = places::<Stretch<D>, D>(&loose.elements, placed);
+            ModelPoints::new(scheme, (&mut models.into_iter(), &mut places, count))
+        };
+        let sets = (vec![Box::new(points)], count.max(1));
         Self::with(of, loose, sets, placed)
     }
 }
@@ -122,11 +127,11 @@ where
     P: ?Sized + PointSet<K::Measures>,
     C: Family,
 {
-    fn elements(&self) -> &dyn Elements<D> {
+    fn elements(&self) -> &dyn Elements {
         &self.elements
     }
 
-    fn elements_mut(&mut self) -> &mut dyn Elements<D> {
+    fn elements_mut(&mut self) -> &mut dyn Elements {
         &mut self.elements
     }
 
@@ -144,15 +149,15 @@ where
             for member in &mut block.members {
                 let nodes = member.site.nodes;
                 member.site = Site::new(nodes, sites);
-                for point in member.points.as_mut() {
+                for _ in 0..Member::<K, D>::POINTS {
                     let (_, slots) = block.points.place(index);
-                    point.contact = u32::MAX;
+                    let mut contact = u32::MAX;
                     if let Some((heat, site)) = ContactSite::new(&nodes, slots.thermal, sites) {
-                        point.contact = compact(self.contacts.heat.len());
+                        contact = compact(self.contacts.heat.len());
                         self.contacts.heat.push(heat);
                         self.contacts.sites.push(site);
                     }
-                    (block.points).connect(index, point.contact, sites.conduction);
+                    (block.points).connect(index, contact, sites.conduction);
                     index += 1;
                 }
             }

@@ -91,7 +91,7 @@ fn each_of<K: Kinematics<D>, const D: usize>(
     }
 }
 
-impl<K: Kinematics<D>, P: ?Sized + HasPoints<K::Measures>, const D: usize> Elements<D>
+impl<K: Kinematics<D>, P: ?Sized + HasPoints<K::Measures>, const D: usize> Elements
     for Blocks<K, P, D>
 {
     fn initialize(&mut self, state: &mut State, refuse: &mut dyn FnMut(StateError)) {
@@ -139,19 +139,25 @@ impl<K: Kinematics<D>, P: ?Sized + HasPoints<K::Measures>, const D: usize> Eleme
         &self,
         place: usize,
         state: &State,
-        velocity: &dyn Fn(usize) -> [f64; D],
+        velocity: &dyn Fn(usize, &mut [f64]),
     ) -> f64 {
         let (points, index, member, point) = self.at(place);
         let r = member.arms_in(state);
         let measures = point.kinematics.measure(&r);
         let slopes = point.kinematics.gradient(&r, &measures);
-        let nodes = member.site.nodes.as_ref();
-        let first = velocity(nodes[0] as usize);
+        let mut velocities = K::PerNode::filled([0.0; D]);
+        let nodes = member.site.nodes.as_ref().iter();
+        for (velocities, &node) in velocities.as_mut().iter_mut().zip(nodes) {
+            velocity(node as usize, velocities);
+        }
+        let [first, others @ ..] = velocities.as_ref() else {
+            unreachable!("an element has nodes")
+        };
         let mut rates = Measures::<K, D>::filled(0.0);
         for (rate, slopes) in rates.as_mut().iter_mut().zip(slopes.as_ref()) {
-            for (&node, slope) in nodes[1..].iter().zip(slopes.as_ref()) {
-                for (axis, speed) in velocity(node as usize).into_iter().enumerate() {
-                    *rate += slope[axis] * (speed - first[axis]);
+            for (velocity, slope) in others.iter().zip(slopes.as_ref()) {
+                for axis in 0..D {
+                    *rate += slope[axis] * (velocity[axis] - first[axis]);
                 }
             }
         }

@@ -2,32 +2,16 @@
 
 use super::member::{Block, Member};
 use super::placed::{OfGroup, TrialArms};
-use super::points::{Exchange, PointSet, TrialView};
+use super::points::{Exchange, PointSet};
 use super::share::{Contacts, Share};
 use crate::algebra::system::LinearSystem;
 use crate::algebra::threads;
 use crate::element::conjugates::Family;
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
-use crate::element::group::view::{StepView, Trial};
+use crate::element::group::view::At;
 use crate::element::kinematics::{Kinematics, Measures, QuadraticStrain};
 use eem_material::free_energy::{Array, MOST_TOGETHER};
-
-/// The trial of a step, as elements see it.
-pub(super) type At<'a, const D: usize> = (&'a StepView<'a>, &'a Trial<D>);
-
-/// The trial of a step, as points see it.
-pub(super) fn for_points<'a, K: Kinematics<D>, const D: usize>(
-    (view, trial): At<'a, D>,
-    contacts: &'a Contacts<K, D>,
-) -> TrialView<'a> {
-    TrialView {
-        view,
-        interface: &trial.interface,
-        is_start: trial.is_start,
-        contacts: &contacts.heat,
-    }
-}
 
 impl<K, P, C, const D: usize> ElementGroup<K, P, C, D>
 where
@@ -114,7 +98,7 @@ impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<
                 count += 1;
             }
         }
-        let at = for_points(at, contacts);
+        let at = contacts.for_points(at);
         (self.points).evaluate_together(&at, &measures[..count], has_tangent);
     }
 
@@ -125,7 +109,7 @@ impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<
         at: At<'_, D>,
         contacts: &Contacts<K, D>,
     ) -> Result<(), StateError> {
-        let for_points = for_points(at, contacts);
+        let for_points = contacts.for_points(at);
         let mut exchange = Exchange::none();
         let mut index = 0;
         for member in &mut self.members {
@@ -158,7 +142,7 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
         contacts: &Contacts<K, D>,
         share: &mut Share<K, D>,
     ) -> Result<(), StateError> {
-        let for_points = for_points(at, contacts);
+        let for_points = contacts.for_points(at);
         let arms = self.trial_arms::<C>(of, at);
         let mut exchange = Exchange::none();
         share.momentum = None;
@@ -193,7 +177,8 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
         let pose = point.pose::<C>(of, arms);
         let by_arm = point.take_sensitivity::<C>(of, &pose, arms, exchange);
         let heat = &mut share.heat.as_mut()[index];
-        *heat = exchange.is_coupled.then(|| point.heat::<C>(exchange));
+        let is_coupled = exchange.contact != u32::MAX;
+        *heat = is_coupled.then(|| point.heat::<C>(exchange));
         if view.phase.moves() {
             let of = (of, view.step);
             let pose = (&pose, by_arm.as_ref());

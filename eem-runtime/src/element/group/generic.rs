@@ -3,6 +3,7 @@
 use super::arms::{measures_in, spread};
 use super::placed::PlacedPoint;
 use super::point::Point;
+use super::points::PointGeneric;
 use super::pose::Pose;
 use super::view::{ElementGeneric, EntropySlopes};
 use crate::element::conjugates::Placement;
@@ -10,16 +11,6 @@ use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Measures, Numbers
 use crate::element::layout::Slots;
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
-
-/// The contribution of a point, apart from its nodes.
-pub(crate) struct PointGeneric<Q: MeasureSet> {
-    forces: Numbers<Q>,
-    /// g and η of its dashpots in series.
-    dashpots: Vec<[f64; 2]>,
-    /// η of those in parallel.
-    drags: Vec<f64>,
-    temperature: f64,
-}
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Replaces the response by the derivatives of the energy at these variables.

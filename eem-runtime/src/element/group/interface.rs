@@ -26,7 +26,7 @@ use crate::element::tally::{Reevaluation, Tally};
 use eem_material::number::digest::Digest;
 
 /// Elements of one model in a state, for any scheme.
-pub(crate) trait Elements<const D: usize>: Send + Sync {
+pub(crate) trait Elements: Send + Sync {
     /// Finds the entropies and energies of an initial state from its temperatures.
     ///
     /// Calls `refuse` for every element for which the state is inadmissible.
@@ -90,8 +90,8 @@ pub(crate) trait Elements<const D: usize>: Send + Sync {
     /// Stress and strain of the element at `place`; `None` for a spring.
     fn solid_state(&self, place: usize, state: &State) -> Option<SolidState>;
 
-    /// The power that the dashpots of the element at `place` turn into heat, W, at these velocities of nodes, m/s.
-    fn dissipation(&self, place: usize, state: &State, velocity: &dyn Fn(usize) -> [f64; D])
+    /// The power that the dashpots of the element at `place` turn into heat, W; `velocity` writes that of a node, m/s.
+    fn dissipation(&self, place: usize, state: &State, velocity: &dyn Fn(usize, &mut [f64]))
     -> f64;
 
     /// Adds the parameters of all elements to a digest.
@@ -105,10 +105,10 @@ pub(crate) trait Elements<const D: usize>: Send + Sync {
 /// Elements of one model in an implicit scheme, for any model, kinematics and scheme.
 pub(crate) trait Group<const D: usize>: Send + Sync {
     /// The elements in a state.
-    fn elements(&self) -> &dyn Elements<D>;
+    fn elements(&self) -> &dyn Elements;
 
     /// The same, mutable.
-    fn elements_mut(&mut self) -> &mut dyn Elements<D>;
+    fn elements_mut(&mut self) -> &mut dyn Elements;
 
     /// The elements without a scheme.
     fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>>;
@@ -227,10 +227,10 @@ pub(crate) trait Group<const D: usize>: Send + Sync {
 /// Elements of one model in an explicit scheme.
 pub(crate) trait ExplicitGroup<const D: usize>: Send + Sync {
     /// The elements in a state.
-    fn elements(&self) -> &dyn Elements<D>;
+    fn elements(&self) -> &dyn Elements;
 
     /// The same, mutable.
-    fn elements_mut(&mut self) -> &mut dyn Elements<D>;
+    fn elements_mut(&mut self) -> &mut dyn Elements;
 
     /// The elements without a scheme.
     fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>>;

@@ -1,13 +1,12 @@
 //! One element of a group: its nodes, and the points at which its free energy is evaluated; and some of them with their points.
 
 use super::arms::{add_scaled, arms_in, change_in};
-use super::evaluate::At;
 use super::placed::{OfGroup, PlacedPoint, TrialArms};
 use super::points::PointPlace;
 use super::pose::placed_arms;
 use super::site::Site;
 use crate::element::conjugates::{Family, OneSet};
-use crate::element::group::view::{Placed, StepView, Trial};
+use crate::element::group::view::{At, Placed, StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
@@ -125,16 +124,14 @@ impl<K: Kinematics<D>, P: ?Sized, const D: usize> Block<K, P, D> {
 }
 
 /// The places of all points of elements.
-pub(super) fn places<K: Kinematics<D>, const D: usize>(
-    elements: &[LooseElement<K, D>],
-    placed: Placed<'_>,
-) -> Vec<PointPlace> {
-    let mut places = Vec::with_capacity(elements.len() * Member::<K, D>::POINTS);
-    for (first, _) in elements {
-        for point in 0..Member::<K, D>::POINTS {
+pub(super) fn places<'a, K: Kinematics<D>, const D: usize>(
+    elements: &'a [LooseElement<K, D>],
+    placed: Placed<'a>,
+) -> impl Iterator<Item = PointPlace> + 'a {
+    elements.iter().flat_map(move |(first, _)| {
+        (0..Member::<K, D>::POINTS).map(move |point| {
             let element = first.after(point);
-            places.push((element, placed.layout.elements[element.index()]));
-        }
-    }
-    places
+            (element, placed.layout.elements[element.index()])
+        })
+    })
 }

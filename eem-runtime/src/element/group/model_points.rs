@@ -6,16 +6,16 @@ use core::marker::PhantomData;
 use super::ahead::Ahead;
 use super::arms::measures_in;
 use super::audit::Misfit;
-use super::generic::PointGeneric;
 use super::inspect::digest_kind;
 use super::point::{Point, variables};
 #[cfg(feature = "gradients")]
 use super::point_step::SeeParameters;
 use super::points::{
-    Exchange, HasPoints, Measured, PointEnd, PointPlace, PointSet, PointsInState, TrialView,
+    Exchange, HasPoints, Measured, PointEnd, PointGeneric, PointPlace, PointSet, PointsInState,
+    TrialView,
 };
 #[cfg(feature = "gradients")]
-use super::push_forward::Linearized;
+use super::push_forward::changes::Linearized;
 use super::site::HeatContact;
 use super::stiffness::{Stiffness, stiffness_of};
 use super::view::{Before, ElementTotals, ElementView, StepView};
@@ -34,6 +34,8 @@ use eem_material::tabled::Tabled;
 pub(super) struct ModelPoints<A: Arrays, Q: MeasureSet, C> {
     scheme: OneSet,
     pub(super) points: Vec<Point<A, Q>>,
+    /// See [`Old::by_factors`](super::view::Old::by_factors).
+    by_factors: bool,
     /// Workspace for points that are evaluated in one call.
     ahead: Option<Box<Ahead<A>>>,
     /// The equations of the point that was linearized last in a completed step.
@@ -46,15 +48,18 @@ pub(super) struct ModelPoints<A: Arrays, Q: MeasureSet, C> {
 }
 
 impl<A: Arrays, Q: MeasureSet, C: Family> ModelPoints<A, Q, C> {
-    /// The points of these models at their places.
+    /// So many points, of these models at their places.
     pub(super) fn new(
         scheme: OneSet,
-        models: &mut dyn Iterator<Item = Tabled<A>>,
-        places: &[PointPlace],
+        (models, places, count): (
+            &mut dyn Iterator<Item = Tabled<A>>,
+            &mut dyn Iterator<Item = PointPlace>,
+            usize,
+        ),
     ) -> Self {
         // A loop: collected, it takes four times the code.
-        let mut points = Vec::with_capacity(places.len());
-        for (&(element, slots), model) in places.iter().zip(models) {
+        let mut points = Vec::with_capacity(count);
+        for ((element, slots), model) in places.zip(models).take(count) {
             points.push(Point::new(scheme, element, model, slots));
         }
         let ahead = if const { Q::IS_SPRING && !C::IS_EXACT } {
@@ -65,6 +70,7 @@ impl<A: Arrays, Q: MeasureSet, C: Family> ModelPoints<A, Q, C> {
         Self {
             scheme,
             points,
+            by_factors: false,
             ahead,
             #[cfg(feature = "gradients")]
             linearized: None,
@@ -248,12 +254,15 @@ impl<A: Arrays, Q: MeasureSet, C: Family> PointsInState<Q> for ModelPoints<A, Q,
     reason = "where the points are not behind a table, a step is compiled as a whole"
 )]
 impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
+    fn contact(&self, index: usize) -> usize {
+        self.points[index].contact as usize
+    }
+
     fn connect(&mut self, index: usize, contact: u32, conduction: &Conduction) {
         let point = &mut self.points[index];
         let slot = point.slots().thermal;
         point.contact = contact;
         point.meets_reservoirs = slot.is_some_and(|slot| conduction.meets_reservoirs(slot));
-        point.settling = slot.map_or(0.0, |slot| conduction.settling(slot));
     }
 
     #[inline(always)]
@@ -264,8 +273,8 @@ impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
         (before, by_factors): (Option<&Before<'_>>, bool),
         measures: &Numbers<Q>,
     ) {
+        self.by_factors = by_factors;
         let point = &mut self.points[index];
-        point.by_factors = by_factors;
         point.begin::<C>(view, before, measures);
         if C::IS_EXACT || self.ahead.is_none() {
             point.keep_old(view);
@@ -355,12 +364,12 @@ impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
     ) -> f64 {
         let point = &mut self.points[index];
         let contact = point.contact_in(contacts);
-        point.correct::<C>(changes, contact, solution)
+        point.correct::<C>(changes, contact, solution, self.by_factors)
     }
 
     fn apply(&mut self, share: f64) {
         for point in &mut self.points {
-            point.apply::<C>(share);
+            point.apply::<C>(share, self.by_factors);
         }
     }
 

@@ -8,9 +8,11 @@ use super::member::Member;
 use super::model_points::ModelPoints;
 use super::placed::PlacedPoint;
 use super::point::{Point, temperature_in};
-use super::point_step::{Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
+use super::point_step::{
+    Direction, PastStep, PerVariable, Reduced, SeeParameters, StepBack, StepWeights, Surroundings,
+    Weighed,
+};
 use super::points::{Exchange, PastPoints, TrialView};
-use super::pull_back::{Reduced, Surroundings, Weighed};
 use super::site::{HeatContact, paths_of};
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::{Exact, Family, Form, Start, exchanged};

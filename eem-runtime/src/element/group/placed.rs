@@ -3,7 +3,7 @@
 use super::arms::{add_scaled, along};
 use super::points::Exchange;
 use super::pose::{Pose, placed_measures};
-use crate::element::conjugates::{Family, OneSet};
+use crate::element::conjugates::{Family, OneSet, Placement};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Ends, Gradient, Kinematics, Measures};
@@ -13,13 +13,9 @@ use eem_material::free_energy::Array;
 /// What it takes to find the measures of a point from the nodes and to bring its forces to them.
 pub(crate) struct PlacedPoint<K: Kinematics<D>, const D: usize> {
     pub(super) kinematics: K,
-    /// The index of its contact in the group, if it conducts heat to other elements; out of range otherwise.
-    pub(super) contact: u32,
     /// The old measures, and those of the trial at which the scheme evaluates.
     pub(super) measures0: Measures<K, D>,
     pub(super) measures: Measures<K, D>,
-    /// The measures of the arms that the scheme uses at the trial.
-    new_measures: Measures<K, D>,
     /// The derivative of the measures with respect to the new arms.
     pub(super) sensitivity: Gradient<K, D>,
     /// The derivative of `r_s` with respect to the new arms, without that through the measures: through the increments for
@@ -70,19 +66,11 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
         let is_classical = matches!(scheme, OneSet::Point(_));
         Self {
             kinematics,
-            contact: u32::MAX,
             measures0: measures,
             measures,
-            new_measures: measures,
             sensitivity: Gradient::<K, D>::filled(nowhere),
             by_increment: is_classical.then(|| Box::new(nowhere)),
         }
-    }
-
-    /// Its contact, if it conducts heat to other elements.
-    #[inline]
-    pub(super) fn contact_in<'a, T>(&self, contacts: &'a [T]) -> Option<&'a T> {
-        contacts.get(self.contact as usize)
     }
 
     /// Finds the measures of a trial, and their increments if they are needed; false if the deformation is inadmissible.
@@ -119,9 +107,6 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
         let measures = self.kinematics.measure(&arms.placed);
         let at = C::placement(of.scheme);
         self.measures = placed_measures::<K, D>(at, &self.measures0, measures);
-        if !C::IS_EXACT {
-            self.new_measures = measures;
-        }
         (self.kinematics).is_admissible(&arms.placed, &self.measures)
     }
 
@@ -132,12 +117,10 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
     )]
     #[inline(always)]
     pub(super) fn pose<C: Family>(&self, of: &OfGroup, arms: &TrialArms<K, D>) -> Pose<K, D> {
-        let new = if C::IS_EXACT {
-            self.measures
-        } else {
-            self.new_measures
-        };
-        let measures = [self.measures0, new];
+        let mut measures = [self.measures0, self.measures];
+        if !C::IS_EXACT && C::placement(of.scheme) == Placement::Start {
+            measures[1] = self.kinematics.measure(&arms.placed);
+        }
         let ends = Ends::new(&self.kinematics, [arms.old, arms.placed], measures);
         Pose::new(&self.kinematics, C::placement(of.scheme), ends)
     }

@@ -91,10 +91,6 @@ pub(crate) struct Point<A: Arrays, Q: MeasureSet> {
     pub(super) meets_reservoirs: bool,
     /// Whether a thermostat prescribes its temperature.
     pub(super) is_prescribed: bool,
-    /// See [`Old::by_factors`](super::view::Old::by_factors).
-    pub(super) by_factors: bool,
-    /// See [`settling`](crate::element::conduction::Conduction::settling), W/K.
-    pub(super) settling: f64,
     /// The old state.
     pub(super) start: Start<A>,
     /// Temperatures of mixed states, kept from one iteration to the next; only in entropy form.
@@ -148,8 +144,6 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
             contact: u32::MAX,
             meets_reservoirs: false,
             is_prescribed: false,
-            by_factors: false,
-            settling: 0.0,
             start: Start::nothing(),
             corners: A::Corners::filled(0.0),
             x: zeros,
@@ -344,7 +338,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Applies the fraction `share` of the correction: viscous stretches linearly, the temperature so that it stays positive: in classical
     /// schemes, and otherwise if `by_factors`, in its logarithm.
     #[inline]
-    pub(super) fn apply<C: Family>(&mut self, share: f64) {
+    pub(super) fn apply<C: Family>(&mut self, share: f64, by_factors: bool) {
         for k in 0..self.dashpots() {
             let index = A::MEASURES + k;
             self.creep[k] = self.previous.get(k) + share * self.correction[index];
@@ -353,7 +347,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
         if self.is_thermal() {
             let change = share * self.correction[Self::TEMPERATURE];
             let previous = self.previous.get(A::DASHPOTS);
-            self.x[Self::TEMPERATURE] = if self.by_factors || !C::is_exact(self.scheme) {
+            self.x[Self::TEMPERATURE] = if by_factors || !C::is_exact(self.scheme) {
                 grown(previous, change)
             } else {
                 changed(previous, change)

@@ -1,9 +1,13 @@
 //! A completed step, for its adjoint and its tangents: its states, derivatives with respect to them or of them, and the
 //! weights of its equations.
 
+use super::points::CondensedRow;
+use super::site::HeatPath;
 use super::terms::Terms;
 use super::view::StepView;
+use crate::element::conduction::InterfaceTemperatures;
 use crate::element::handle::Element;
+use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Layout;
 use crate::element::state::State;
 
@@ -107,3 +111,32 @@ pub(crate) struct StepWeights {
 
 /// A function that receives the derivatives with respect to the parameters of each element.
 pub(crate) type SeeParameters<'a> = dyn FnMut(Element, &[f64]) + 'a;
+
+/// The transposed equations of a point after the elimination of its own weights:
+/// `Σ_a h (D*π_a·w_v) moduli_a + w_Θ by_heat + constant`, by measure.
+pub(crate) struct Reduced<Q: MeasureSet> {
+    pub(in crate::element::group) moduli: Q::Per<Numbers<Q>>,
+    pub(in crate::element::group) by_heat: Numbers<Q>,
+    pub(in crate::element::group) constant: Numbers<Q>,
+    /// Its forces.
+    pub(in crate::element::group) forces: Numbers<Q>,
+    /// The weight of its balance of heat as a function of those numbers, without the sign, and `∂r_s/∂Q`.
+    pub(in crate::element::group) own_weight: CondensedRow<Numbers<Q>>,
+    pub(in crate::element::group) heat_factor: f64,
+}
+
+/// The inputs of the weights of a point besides its own values.
+pub(crate) struct Surroundings<'a> {
+    pub(in crate::element::group) step: &'a StepBack<'a>,
+    pub(in crate::element::group) interface: &'a InterfaceTemperatures,
+    pub(in crate::element::group) paths: Option<&'a [HeatPath]>,
+    /// `w_Θ`.
+    pub(in crate::element::group) theta: f64,
+}
+
+/// The forces of a point, and the derivatives of `wᵀR` with respect to its old and its new measures.
+pub(crate) struct Weighed<Q: MeasureSet> {
+    pub(in crate::element::group) forces: Numbers<Q>,
+    pub(in crate::element::group) by_old: Numbers<Q>,
+    pub(in crate::element::group) by_new: Numbers<Q>,
+}

@@ -4,27 +4,23 @@
 //! nodes, and of the points forces per measure. So points are compiled for each size of arrays, in no dimension, and elements for each
 //! kind of element and dimension: the two add up and do not multiply.
 
-use core::any::{Any, TypeId};
+use core::any::Any;
 
 use super::audit::Misfit;
-use super::condensed::CondensedRow;
-use super::generic::PointGeneric;
 #[cfg(feature = "gradients")]
-use super::point_step::{Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
-#[cfg(feature = "gradients")]
-use super::pull_back::{Reduced, Surroundings, Weighed};
+use super::point_step::{
+    Direction, PastStep, PerVariable, Reduced, SeeParameters, StepBack, StepWeights, Surroundings,
+    Weighed,
+};
 use super::site::HeatContact;
-use super::stages::{PathModels, ValueModels};
 use super::stiffness::Stiffness;
 use super::view::{Before, ElementTotals, ElementView, StepView};
 use crate::element::conduction::{Conduction, InterfaceTemperatures};
-use crate::element::conjugates::OneSet;
 use crate::element::error::StateError;
 use crate::element::handle::Element;
-use crate::element::kinematics::{MeasureSet, Numbers, StrainMeasures};
-use crate::element::layout::{Shape, Slots};
+use crate::element::kinematics::{MeasureSet, Numbers};
+use crate::element::layout::Slots;
 use crate::element::state::{Energy, State};
-use crate::element::tableau::Tableau;
 use crate::element::tally::{Reevaluation, Tally};
 use eem_material::free_energy::Array;
 use eem_material::number::digest::Digest;
@@ -32,68 +28,22 @@ use eem_material::number::digest::Digest;
 /// Where a point is in the state of a scene: its handle, and the state indices of its internal variables.
 pub(crate) type PointPlace = (Element, Slots);
 
-/// Models of points that have no scheme yet. `G` are the measures of a point as functions of its strain.
-pub(crate) trait Models<G: StrainMeasures>: Any + Send + Sync {
-    /// The models, for a downcast to their type.
-    fn as_any(&self) -> &dyn Any;
-
-    /// The same, mutable.
-    fn as_any_mut(&mut self) -> &mut dyn Any;
-
-    /// Their capabilities.
-    fn shape(&self) -> Shape;
-
-    /// Their type and kind; see [`FreeEnergy::kind`](eem_material::FreeEnergy::kind).
-    fn kind(&self) -> (TypeId, u64);
-
-    /// Their name.
-    fn name(&self) -> &'static &'static str;
-
-    /// The first parameter of a model that is not finite, and its value.
-    fn infinite_parameter(&self, index: usize) -> Option<(&'static str, f64)>;
-
-    /// Whether several of them may be evaluated in one call.
-    fn is_together(&self) -> bool;
-
-    fn duplicate(&self) -> Box<dyn Models<G>>;
-
-    /// Takes models back from points.
-    ///
-    /// # Panics
-    ///
-    /// If they are of another type.
-    fn take_back(&mut self, models: Box<dyn Any>);
-
-    /// Gives its models to points with one set of forces in a step, in sets of so many.
-    fn points(
-        &mut self,
-        scheme: OneSet,
-        places: &[PointPlace],
-        per_set: usize,
-    ) -> Vec<Box<dyn PointSet<G::Measures>>>;
-
-    /// Gives its models to points on a path through the stages of a step.
-    fn on_path(
-        &mut self,
-        rule: &'static Tableau,
-        places: &[PointPlace],
-        strains: &[G],
-    ) -> Box<dyn PathModels<G>>;
-
-    /// Gives its models to points with values at the stages of a step.
-    fn at_stages(
-        &mut self,
-        rule: &'static Tableau,
-        places: &[PointPlace],
-    ) -> Box<dyn ValueModels<G::Measures>>;
-}
-
 /// The measures of a point, and what else follows from its nodes in a state.
 pub(crate) struct Measured<'a, Q: MeasureSet> {
     pub(super) measures: &'a Numbers<Q>,
     /// See [`Kinematics::sizes`](crate::element::kinematics::Kinematics::sizes).
     pub(super) sizes: &'a Numbers<Q>,
     pub(super) state: &'a State,
+}
+
+/// The contribution of a point, apart from its nodes.
+pub(crate) struct PointGeneric<Q: MeasureSet> {
+    pub(super) forces: Numbers<Q>,
+    /// g and η of its dashpots in series.
+    pub(super) dashpots: Vec<[f64; 2]>,
+    /// η of those in parallel.
+    pub(super) drags: Vec<f64>,
+    pub(super) temperature: f64,
 }
 
 /// Points of any scheme.
@@ -195,6 +145,24 @@ pub(crate) struct TrialView<'a> {
     pub(super) contacts: &'a [HeatContact],
 }
 
+/// A response with the internal variables eliminated: `value + Σ_a by_measure_a δπ_a − by_heat δr_s`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CondensedRow<V> {
+    pub(super) value: f64,
+    pub(super) by_measure: V,
+    pub(super) by_heat: f64,
+}
+
+impl<V: Array<f64>> CondensedRow<V> {
+    pub(super) fn none() -> Self {
+        Self {
+            value: 0.0,
+            by_measure: V::filled(0.0),
+            by_heat: 0.0,
+        }
+    }
+}
+
 /// What nodes tell a point of a trial, and what it answers.
 #[derive(Clone, Copy)]
 pub(crate) struct Exchange<Q: MeasureSet> {
@@ -206,8 +174,8 @@ pub(crate) struct Exchange<Q: MeasureSet> {
     pub(super) forces: Numbers<Q>,
     /// The same as functions of the measures, with the internal variables eliminated.
     pub(super) rows: Q::Per<CondensedRow<Numbers<Q>>>,
-    /// Whether the point conducts heat to others; then θ* − Θ as such a function, K.
-    pub(super) is_coupled: bool,
+    /// The index of its contact if the point conducts heat to others, out of range otherwise; then θ* − Θ as such a function, K.
+    pub(super) contact: u32,
     pub(super) heat: CondensedRow<Numbers<Q>>,
     /// `∂r_s/∂Q = −h w/θ*`.
     pub(super) heat_factor: f64,
@@ -225,7 +193,7 @@ impl<Q: MeasureSet> Exchange<Q> {
             increments: zeros,
             forces: zeros,
             rows: Q::Per::filled(CondensedRow::none()),
-            is_coupled: false,
+            contact: u32::MAX,
             heat: CondensedRow::none(),
             heat_factor: 0.0,
             heat_by_increment: zeros,
@@ -249,7 +217,10 @@ pub(crate) struct PointEnd<Q: MeasureSet> {
 pub(crate) trait PointSet<Q: MeasureSet>:
     PointsInState<Q> + HasPoints<Q> + PastPoints<Q>
 {
-    /// Takes the index of the contact of a point, out of range without one, and what it needs of its paths of heat.
+    /// The index of the contact of a point, out of range without one.
+    fn contact(&self, index: usize) -> usize;
+
+    /// Takes that index, and whether it exchanges heat with reservoirs.
     fn connect(&mut self, index: usize, contact: u32, conduction: &Conduction);
 
     /// Takes over the old state, which has these measures, and starts the trial there.

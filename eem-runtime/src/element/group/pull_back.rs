@@ -18,7 +18,9 @@ use super::element_group::ElementGroup;
 use super::evaluate::in_rounds;
 use super::member::{Block, Member};
 use super::placed::PlacedPoint;
-use super::point_step::{PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
+use super::point_step::{
+    PastStep, PerVariable, Reduced, SeeParameters, StepBack, StepWeights, Surroundings,
+};
 use super::points::PointSet;
 use super::pose::Pose;
 use super::share::{Contacts, Heat, Momentum, Share};
@@ -29,9 +31,7 @@ use crate::element::conjugates::{Family, Placement};
 use crate::element::error::StateError;
 use crate::element::kinematics::{Arms, Ends, Gradient, Kinematics, Measures, QuadraticStrain};
 use eem_material::free_energy::Array;
-
-pub(crate) use condensed::Reduced;
-pub(crate) use weights::{Surroundings, Weighed};
+use eem_material::number::compact::compact;
 
 impl<K, P, C, const D: usize> ElementGroup<K, P, C, D>
 where
@@ -52,7 +52,7 @@ where
                 for point in member.points.as_ref() {
                     let (_, slots) = points.place(index);
                     if let Some(slot) = slots.thermal
-                        && point.contact_in(&self.contacts.heat).is_some()
+                        && self.contacts.heat.get(points.contact(index)).is_some()
                     {
                         let ends = point.past_ends(arms);
                         let theta = points.find_interface(index, step, ends.measures.each_ref())?;
@@ -127,7 +127,7 @@ where
                 let is_held = member.site.is_mass.as_ref().contains(&false);
                 let mut by_arms = [Arms::<K, D>::filled([0.0; D]); 2];
                 for point in member.points.as_ref() {
-                    let contact = point.contact_in(&self.contacts.heat);
+                    let contact = self.contacts.heat.get(points.contact(index));
                     let around = Surroundings {
                         step,
                         interface,
@@ -185,7 +185,7 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
         share.momentum = None;
         let own = self.points.as_ref().iter().zip(share.heat.as_mut());
         for (index, (point, heat)) in (first..).zip(own) {
-            let contact = point.contact_in(&contacts.heat);
+            let contact = contacts.heat.get(points.contact(index));
             let past = point.past_ends(arms);
             let around = (interface, contact);
             let measures = past.measures.each_ref();
@@ -193,7 +193,8 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
             let ends = past.forward(&point.kinematics);
             let pose = Pose::new(&point.kinematics, Placement::Ends, ends);
             let h = step.past.view.step;
-            *heat = contact.map(|_| heat_transposed(h, &pose, &reduced));
+            let own = compact(points.contact(index));
+            *heat = contact.map(|_| heat_transposed((own, h), &pose, &reduced));
             point.add_transposed(h, &pose, &reduced, &mut share.momentum);
         }
         Ok(())
@@ -207,11 +208,9 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
         contacts: &Contacts<K, D>,
         (values, right): (&mut [f64], &mut [[f64; 1]]),
     ) {
-        let heats = share.heat.as_ref().iter().zip(self.points.as_ref());
-        for (heat, point) in heats {
-            if let (Some(heat), Some((contact, own))) = (heat, contacts.of(point)) {
-                own.add_transposed(contact, &self.site, heat, (&mut *values, &mut *right));
-            }
+        for heat in share.heat.as_ref().iter().flatten() {
+            let (contact, own) = contacts.at(heat.contact);
+            own.add_transposed(contact, &self.site, heat, (&mut *values, &mut *right));
         }
         if let Some(momentum) = &share.momentum {
             self.site
@@ -256,12 +255,13 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
 /// The terms of the interface temperatures of a point, its own and its partners': `by_arm` is the derivative of `wᵀR` with respect
 /// to `w_Θ` and the arms. `−(∂R_s/∂Q) w_s` is `pull` times `w_v` plus `slope` times `w_Θ` plus `residual`.
 fn heat_transposed<K: Kinematics<D>, const D: usize>(
-    step: f64,
+    (contact, step): (u32, f64),
     pose: &Pose<K, D>,
     reduced: &Reduced<K::Measures>,
 ) -> Heat<K, D> {
     let (own, factor) = (&reduced.own_weight, reduced.heat_factor);
     Heat {
+        contact,
         residual: factor * own.value,
         by_arm: combined::<K, D>(&pose.sensitivity, &reduced.by_heat, 1.0),
         slope: factor * own.by_heat,

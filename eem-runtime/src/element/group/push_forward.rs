@@ -10,7 +10,7 @@
 //! which is an iteration of Newton's method with dR in place of the residual. Matrix, elimination of the local unknowns and
 //! assembly are those of a step; dR and the local unknowns are found for one direction after the other.
 
-mod changes;
+pub(super) mod changes;
 
 use super::arms::{along, dot};
 use super::element_group::ElementGroup;
@@ -31,8 +31,6 @@ use crate::element::kinematics::{
 };
 use crate::element::layout::Slots;
 use eem_material::free_energy::Array;
-
-pub(super) use changes::Linearized;
 
 impl<K, P, C, const D: usize> ElementGroup<K, P, C, D>
 where
@@ -79,7 +77,7 @@ where
                     let moved = member.site.changes_in(&direction.new.positions);
                     for (index, point) in (first..).zip(member.points.as_ref()) {
                         let changes = PlacedPoint::<K, D>::rates_along(&point.sensitivity, &moved);
-                        let contact = point.contact_in(&self.contacts.heat);
+                        let contact = self.contacts.heat.get(block.points.contact(index));
                         block.points.follow(index, &changes, contact, direction);
                     }
                 }
@@ -105,7 +103,7 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
         let first = index * Self::POINTS;
         let own = self.points.as_mut().iter_mut().zip(share.heat.as_mut());
         for (index, (point, heat)) in (first..).zip(own) {
-            let contact = point.contact_in(&contacts.heat);
+            let contact = contacts.heat.get(points.contact(index));
             let past = point.past_ends(arms);
             let (ends, back) = (
                 past.forward(&point.kinematics),
@@ -155,10 +153,9 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
         let [old, new] =
             [&direction.old, &direction.new].map(|own| self.site.changes_in(&own.positions));
         let right = direction.right.as_flattened_mut();
-        for (heat, point) in share.heat.as_ref().iter().zip(self.points.as_ref()) {
-            if let (Some(heat), Some(contact)) = (heat, point.contact_in(&contacts.heat)) {
-                right[contact.unknown as usize] += along::<K, D>(&heat.by_arm, &new);
-            }
+        for heat in share.heat.as_ref().iter().flatten() {
+            let (contact, _) = contacts.at(heat.contact);
+            right[contact.unknown as usize] += along::<K, D>(&heat.by_arm, &new);
         }
         if let (Some(by_old), Some(momentum)) = (by_old, &share.momentum) {
             let mut pull = applied::<K, D>(by_old, &old);

@@ -66,7 +66,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
         exchange: &mut Exchange<Q>,
     ) {
         exchange.heat_factor = self.condensed.heat_factor;
-        exchange.is_coupled = is_coupled;
+        exchange.contact = if is_coupled { self.contact } else { u32::MAX };
         if is_coupled {
             let row = Self::TEMPERATURE;
             exchange.heat = if C::is_damped(self.scheme) {

@@ -2,13 +2,13 @@
 //! element. Anchors have no equations.
 
 use super::arms::{add_scaled, scale};
-use super::condensed::CondensedRow;
 use super::member::Member;
 use super::placed::{OfGroup, PlacedPoint};
-use super::points::Exchange;
+use super::points::{CondensedRow, Exchange, TrialView};
 use super::pose::Pose;
 use super::site::{ContactSite, HeatContact, Site};
 use crate::element::conjugates::Family;
+use crate::element::group::view::At;
 use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Measures, Points};
 use eem_material::free_energy::Array;
 
@@ -30,6 +30,8 @@ pub(super) struct Momentum<K: Kinematics<D>, const D: usize> {
 
 /// The contribution of a point with an interface temperature.
 pub(super) struct Heat<K: Kinematics<D>, const D: usize> {
+    /// The index of its contact.
+    pub(super) contact: u32,
     /// `θ* − Θ`, with the internal variables eliminated, K.
     pub(super) residual: f64,
     /// The derivative of θ* with respect to the new arms, K/m.
@@ -75,6 +77,7 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
     pub(super) fn heat<C: Family>(&self, exchange: &Exchange<K::Measures>) -> Heat<K, D> {
         let row = &exchange.heat;
         Heat {
+            contact: exchange.contact,
             residual: row.value,
             by_arm: self.by_arm::<C>(row, 1.0),
             slope: row.by_heat * exchange.heat_factor,
@@ -151,16 +154,12 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
         contacts: &Contacts<K, D>,
         (values, right): (&mut [f64], &mut [[f64; 1]]),
     ) {
-        let heats = share.heat.as_ref().iter().zip(self.points.as_ref());
-        for (heat, point) in heats {
-            if let Some(heat) = heat
-                && let Some((contact, own)) = contacts.of(point)
-            {
-                if share.momentum.is_some() {
-                    own.add_pull(contact, &self.site, &heat.pull, values);
-                }
-                own.add_balance(contact, &self.site, heat, values, right);
+        for heat in share.heat.as_ref().iter().flatten() {
+            let (contact, own) = contacts.at(heat.contact);
+            if share.momentum.is_some() {
+                own.add_pull(contact, &self.site, &heat.pull, values);
             }
+            own.add_balance(contact, &self.site, heat, values, right);
         }
         if let Some(momentum) = &share.momentum {
             self.site
@@ -183,16 +182,21 @@ impl<K: Kinematics<D>, const D: usize> Contacts<K, D> {
         }
     }
 
-    /// The contact of a point, if it conducts heat to other elements.
+    /// The trial of a step, as points see it.
     #[inline]
-    pub(super) fn of(
-        &self,
-        point: &PlacedPoint<K, D>,
-    ) -> Option<(&HeatContact, &ContactSite<K, D>)> {
-        Some((
-            point.contact_in(&self.heat)?,
-            point.contact_in(&self.sites)?,
-        ))
+    pub(super) fn for_points<'a>(&'a self, (view, trial): At<'a, D>) -> TrialView<'a> {
+        TrialView {
+            view,
+            interface: &trial.interface,
+            is_start: trial.is_start,
+            contacts: &self.heat,
+        }
+    }
+
+    /// The contact with this index.
+    #[inline]
+    pub(super) fn at(&self, contact: u32) -> (&HeatContact, &ContactSite<K, D>) {
+        (&self.heat[contact as usize], &self.sites[contact as usize])
     }
 }
 

@@ -16,16 +16,14 @@
 mod assemble;
 mod equations;
 mod geometry;
-mod models;
+pub(super) mod models;
 mod point;
-mod projection;
+pub(super) mod projection;
 mod site;
 mod stage_group;
-mod stage_points;
-mod values;
+pub(super) mod stage_points;
+pub(super) mod values;
 
-pub(crate) use models::{PathModels, ValueModels};
-pub(crate) use projection::{PointPath, Projections};
+pub(crate) use projection::Projections;
 pub(crate) use stage_group::StageGroup;
-pub(crate) use stage_points::StagePoints;
-pub(crate) use values::{StageValues, Values};
+pub(crate) use values::Values;

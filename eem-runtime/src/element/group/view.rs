@@ -116,6 +116,9 @@ impl<const D: usize> Trial<D> {
     }
 }
 
+/// The trial of a step, as elements see it.
+pub(super) type At<'a, const D: usize> = (&'a StepView<'a>, &'a Trial<D>);
+
 /// Sums over elements, in twice the precision.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ElementTotals {

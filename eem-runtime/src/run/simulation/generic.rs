@@ -55,7 +55,7 @@ impl<const D: usize> Simulation<D> {
         self.run.has_stepped = false;
         let state = &self.run.state;
         let mut elements = Vec::new();
-        let each = |group: &mut dyn Elements<D>| {
+        let each = |group: &mut dyn Elements| {
             group.generic_in(state, &mut |element| elements.push(element));
         };
         self.run.stepper.of_mut::<D>().each_mut(each);

@@ -150,10 +150,8 @@ impl<const D: usize> Simulation<D> {
     pub fn solid_state(&self, point: Element) -> Result<SolidState, SceneError> {
         self.run.expect_own(&point)?;
         let [group, place] = self.run.place(point);
-        let state = self
-            .stepper()
-            .elements(group)
-            .solid_state(place, &self.run.state);
+        let elements = self.run.stepper.elements(group);
+        let state = elements.solid_state(place, &self.run.state);
         state.ok_or(SolidError::NotASolid { element: point }.into())
     }
 
@@ -213,9 +211,9 @@ impl<const D: usize> Simulation<D> {
     pub fn entropy_production(&self, element: Element) -> Result<f64, SceneError> {
         let slot = self.run.thermal_slot(element)?;
         let theta = self.run.state.temperatures[slot];
-        let velocity = |node| self.velocity_at(node);
+        let velocity = |node, to: &mut [f64]| to.copy_from_slice(self.velocity_at(node).as_ref());
         let [group, place] = self.run.place(element);
-        let elements = self.stepper().elements(group);
+        let elements = self.run.stepper.elements(group);
         let mut production = elements.dissipation(place, &self.run.state, &velocity) / theta;
         for link in self.run.conduction.links(slot) {
             let (other, share) = match link.partner {
@@ -402,10 +400,8 @@ impl<const D: usize> Simulation<D> {
     fn view(&self, element: Element) -> Result<ElementView, SceneError> {
         self.run.expect_own(&element)?;
         let [group, place] = self.run.place(element);
-        Ok(self
-            .stepper()
-            .elements(group)
-            .inspect(place, &self.run.state))
+        let elements = self.run.stepper.elements(group);
+        Ok(elements.inspect(place, &self.run.state))
     }
 
     /// All elements of the model with this name, the last part of its path, in the order of creation: springs, and points of

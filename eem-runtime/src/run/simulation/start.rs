@@ -176,7 +176,7 @@ fn find_speed(motion: Written<'_>, [start, step]: [f64; 2], speeds: &mut [f64]) 
 
 /// Finds the entropies of the initial state; all its errors if it is impossible.
 pub(super) fn find_entropies<const D: usize>(
-    elements: &mut [&mut dyn Elements<D>],
+    elements: &mut [&mut dyn Elements],
     state: &mut State,
     site: Site<'_, D>,
 ) -> Result<(), Vec<SceneError>> {

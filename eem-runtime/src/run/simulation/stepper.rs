@@ -22,7 +22,7 @@ type Models<const D: usize> = Vec<Box<dyn Loose<D>>>;
 
 /// What is done with the elements in their initial state before memory for the solver is reserved.
 type Begin<'a, const D: usize> =
-    &'a mut dyn FnMut(&mut State, &mut [&mut dyn Elements<D>]) -> Result<(), Vec<SceneError>>;
+    &'a mut dyn FnMut(&mut State, &mut [&mut dyn Elements]) -> Result<(), Vec<SceneError>>;
 
 /// What becomes of each of these.
 pub(super) fn each<T, U>(all: Vec<T>, mut change: impl FnMut(T) -> U) -> Vec<U> {
@@ -120,25 +120,8 @@ impl<const D: usize> Stepper<D> {
         }
     }
 
-    /// A group.
-    pub(super) fn elements(&self, group: usize) -> &dyn Elements<D> {
-        match self {
-            Self::Newton(newton) => newton.groups[group].elements(),
-            Self::Explicit(explicit) => explicit.elements(group),
-        }
-    }
-
-    /// All groups.
-    pub(super) fn all(&self) -> impl Iterator<Item = &dyn Elements<D>> {
-        let groups = match self {
-            Self::Newton(newton) => newton.groups.len(),
-            Self::Explicit(explicit) => explicit.groups(),
-        };
-        (0..groups).map(|group| self.elements(group))
-    }
-
     /// Calls a function with each group.
-    pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<D>)) {
+    pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements)) {
         match self {
             Self::Newton(newton) => {
                 for group in &mut newton.groups {

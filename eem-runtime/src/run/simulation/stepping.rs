@@ -5,7 +5,7 @@ use core::mem;
 
 use super::stepper::{Memory, Start, Stepper, each, evaluate_loads};
 use crate::algebra::memory::{MemoryLimit, TooLarge};
-use crate::element::group::{ElementTotals, Group, Misfit, Stiffness};
+use crate::element::group::{ElementTotals, Elements, Group, Misfit, Stiffness};
 use crate::element::handle::Element;
 use crate::element::layout::Slots;
 use crate::element::state::State;
@@ -36,8 +36,7 @@ pub(super) const fn site_of<const D: usize>(site: Site<'_, 0>) -> Site<'_, D> {
     }
 }
 
-/// A [`Stepper`] of some dimension, with which a run is compiled once and not for each dimension. An element has the index of its
-/// group and its place there.
+/// A [`Stepper`] of some dimension, with which a run is compiled once and not for each dimension.
 pub(super) trait Stepping: Any + Send + Sync {
     /// Writes the state after a step. It is rejected if the scheme estimates its error and that is not within the demand.
     fn step(
@@ -94,24 +93,11 @@ pub(super) trait Stepping: Any + Send + Sync {
     /// Undoes the effect of the last step on the history.
     fn undo(&mut self);
 
-    fn slots(&self, element: [usize; 2]) -> Slots;
+    /// Number of groups.
+    fn groups(&self) -> usize;
 
-    fn nodes(&self, element: [usize; 2]) -> &[u32];
-
-    fn handle(&self, element: [usize; 2]) -> Element;
-
-    /// Calls a function with the stiffness of each element.
-    fn stiffness(&self, state: &State, see: &mut dyn FnMut([usize; 2], Stiffness<'_>));
-
-    fn add_totals(&self, state: &State, totals: &mut ElementTotals);
-
-    fn find_energies(&self, state: &mut State);
-
-    /// Adds all parameters.
-    fn digest(&self, digest: &mut Digest);
-
-    /// An error unless the elements can be in a state.
-    fn audit(&self, state: &State) -> Result<(), Misfit>;
+    /// A group.
+    fn elements(&self, group: usize) -> &dyn Elements;
 }
 
 impl dyn Stepping {
@@ -124,6 +110,61 @@ impl dyn Stepping {
     pub(super) fn of_mut<const D: usize>(&mut self) -> &mut Stepper<D> {
         let stepper = (self as &mut dyn Any).downcast_mut();
         stepper.unwrap_or_else(|| unreachable!("a run has one dimension"))
+    }
+}
+
+/// All elements; one of them has the index of its group and its place there.
+impl dyn Stepping {
+    /// All groups.
+    pub(super) fn all(&self) -> impl Iterator<Item = &dyn Elements> {
+        (0..self.groups()).map(|group| self.elements(group))
+    }
+
+    pub(super) fn slots(&self, [group, place]: [usize; 2]) -> Slots {
+        self.elements(group).slots(place)
+    }
+
+    pub(super) fn nodes(&self, [group, place]: [usize; 2]) -> &[u32] {
+        self.elements(group).nodes(place)
+    }
+
+    pub(super) fn handle(&self, [group, place]: [usize; 2]) -> Element {
+        self.elements(group).handle(place)
+    }
+
+    /// Calls a function with the stiffness of each element.
+    pub(super) fn stiffness(&self, state: &State, see: &mut dyn FnMut([usize; 2], Stiffness<'_>)) {
+        for (index, group) in self.all().enumerate() {
+            let mut place = 0;
+            group.stiffness(state, &mut |point| {
+                see([index, place], point);
+                place += 1;
+            });
+        }
+    }
+
+    pub(super) fn add_totals(&self, state: &State, totals: &mut ElementTotals) {
+        for group in self.all() {
+            group.add_totals(state, totals);
+        }
+    }
+
+    pub(super) fn find_energies(&self, state: &mut State) {
+        for group in self.all() {
+            group.find_energies(state);
+        }
+    }
+
+    /// Adds all parameters.
+    pub(super) fn digest(&self, digest: &mut Digest) {
+        for group in self.all() {
+            group.digest(digest);
+        }
+    }
+
+    /// An error unless the elements can be in a state.
+    pub(super) fn audit(&self, state: &State) -> Result<(), Misfit> {
+        self.all().try_for_each(|group| group.audit(state))
     }
 }
 
@@ -183,7 +224,8 @@ impl<const D: usize> Stepping for Stepper<D> {
         if let Some(explicit) = self.explicit() {
             explicit.forget();
             // As after a restart.
-            self.find_energies(state);
+            let own: &dyn Stepping = self;
+            own.find_energies(state);
         }
     }
 
@@ -257,50 +299,17 @@ impl<const D: usize> Stepping for Stepper<D> {
         }
     }
 
-    fn slots(&self, [group, place]: [usize; 2]) -> Slots {
-        self.elements(group).slots(place)
-    }
-
-    fn nodes(&self, [group, place]: [usize; 2]) -> &[u32] {
-        self.elements(group).nodes(place)
-    }
-
-    fn handle(&self, [group, place]: [usize; 2]) -> Element {
-        self.elements(group).handle(place)
-    }
-
-    fn stiffness(&self, state: &State, see: &mut dyn FnMut([usize; 2], Stiffness<'_>)) {
-        for (index, group) in self.all().enumerate() {
-            let mut place = 0;
-            group.stiffness(state, &mut |point| {
-                see([index, place], point);
-                place += 1;
-            });
+    fn groups(&self) -> usize {
+        match self {
+            Self::Newton(newton) => newton.groups.len(),
+            Self::Explicit(explicit) => explicit.groups(),
         }
     }
 
-    fn add_totals(&self, state: &State, totals: &mut ElementTotals) {
-        for group in self.all() {
-            group.add_totals(state, totals);
+    fn elements(&self, group: usize) -> &dyn Elements {
+        match self {
+            Self::Newton(newton) => newton.groups[group].elements(),
+            Self::Explicit(explicit) => explicit.elements(group),
         }
-    }
-
-    fn find_energies(&self, state: &mut State) {
-        for group in self.all() {
-            group.find_energies(state);
-        }
-    }
-
-    fn digest(&self, digest: &mut Digest) {
-        for group in self.all() {
-            group.digest(digest);
-        }
-    }
-
-    fn audit(&self, state: &State) -> Result<(), Misfit> {
-        for group in self.all() {
-            group.audit(state)?;
-        }
-        Ok(())
     }
 }

@@ -38,11 +38,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitGroup<D> for ExplicitElements<M, K, D> {
-    fn elements(&self) -> &dyn Elements<D> {
+    fn elements(&self) -> &dyn Elements {
         self.all.elements()
     }
 
-    fn elements_mut(&mut self) -> &mut dyn Elements<D> {
+    fn elements_mut(&mut self) -> &mut dyn Elements {
         self.all.elements_mut()
     }
 

@@ -4,29 +4,16 @@ use crate::element::conduction::{InterfaceTemperatures, Partner};
 use crate::element::conjugates::{Exact, Form};
 use crate::element::error::StateError;
 use crate::element::group::arms::measures_in;
-use crate::element::group::condensed::CondensedRow;
 use crate::element::group::eliminate::{LocalSystem, eliminate};
 use crate::element::group::point::{Point, temperature_in};
-use crate::element::group::point_step::StepBack;
+use crate::element::group::point_step::{Reduced, StepBack};
+use crate::element::group::points::CondensedRow;
 use crate::element::group::site::HeatPath;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
-
-/// The transposed equations of a point after the elimination of its own weights:
-/// `Σ_a h (D*π_a·w_v) moduli_a + w_Θ by_heat + constant`, by measure.
-pub(crate) struct Reduced<Q: MeasureSet> {
-    pub(super) moduli: Q::Per<Numbers<Q>>,
-    pub(super) by_heat: Numbers<Q>,
-    pub(super) constant: Numbers<Q>,
-    /// Its forces.
-    pub(super) forces: Numbers<Q>,
-    /// The weight of its balance of heat as a function of those numbers, without the sign, and `∂r_s/∂Q`.
-    pub(super) own_weight: CondensedRow<Numbers<Q>>,
-    pub(super) heat_factor: f64,
-}
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// `Σ λ_σ h κ_r/θ_r`.

@@ -1,32 +1,16 @@
 //! The weights of the equations of a point, and the derivatives that follow from them.
 
-use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::Exact;
 use crate::element::group::arms::measures_in;
 use crate::element::group::point::Point;
-use crate::element::group::point_step::{PerVariable, SeeParameters, StepBack, StepWeights};
-use crate::element::group::site::HeatPath;
+use crate::element::group::point_step::{
+    PerVariable, SeeParameters, StepWeights, Surroundings, Weighed,
+};
 use crate::element::group::terms::Terms;
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
-
-/// The inputs of the weights of a point besides its own values.
-pub(crate) struct Surroundings<'a> {
-    pub(super) step: &'a StepBack<'a>,
-    pub(super) interface: &'a InterfaceTemperatures,
-    pub(super) paths: Option<&'a [HeatPath]>,
-    /// `w_Θ`.
-    pub(super) theta: f64,
-}
-
-/// The forces of a point, and the derivatives of `wᵀR` with respect to its old and its new measures.
-pub(crate) struct Weighed<Q: MeasureSet> {
-    pub(super) forces: Numbers<Q>,
-    pub(super) by_old: Numbers<Q>,
-    pub(super) by_new: Numbers<Q>,
-}
 
 /// The derivatives of `wᵀR` with respect to the response, the increments and the viscosities of a point, its terms of
 /// `−(∂R/∂h)ᵀ w`, and the weight of its balance of heat.

@@ -31,7 +31,7 @@ mod closing;
 mod exact;
 mod kelvin_voigt;
 mod local;
-mod path;
+pub(in crate::element::group) mod path;
 mod rounding;
 mod vector;
 
@@ -50,8 +50,6 @@ use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
 use crate::element::tally::Tally;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
-
-pub(crate) use path::PointPath;
 
 /// A point among its nodes on its path through a step.
 pub(crate) struct Projections<K: QuadraticStrain<D>, const D: usize> {

@@ -132,11 +132,11 @@ impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> StageGroup<K, G, 
 }
 
 impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> Group<D> for StageGroup<K, G, D> {
-    fn elements(&self) -> &dyn Elements<D> {
+    fn elements(&self) -> &dyn Elements {
         &self.elements
     }
 
-    fn elements_mut(&mut self) -> &mut dyn Elements<D> {
+    fn elements_mut(&mut self) -> &mut dyn Elements {
         &mut self.elements
     }
 

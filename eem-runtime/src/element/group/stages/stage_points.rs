@@ -5,8 +5,8 @@ use core::any::Any;
 use super::equations::StageEquations;
 use super::models::{PathModels, StageModels, ValueModels};
 use super::point::{LocalStages, Outside, StagePoint};
-use super::projection::PointPath;
-use super::values::StageValues;
+use super::projection::path::PointPath;
+use super::values::local::StageValues;
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::{Any as AnyScheme, OneSet, PointRule};
 use crate::element::error::StateError;
@@ -33,18 +33,18 @@ impl<A: Arrays, Q: MeasureSet, E: StageEquations<A, Q>> StagePoints<A, Q, E> {
     pub(crate) fn new(
         rule: &'static Tableau,
         models: Vec<Tabled<A>>,
-        places: &[PointPlace],
+        places: &mut dyn Iterator<Item = PointPlace>,
         equations: &mut dyn FnMut(StagePoint) -> E,
     ) -> Self {
-        let scheme = OneSet::Point(PointRule::Variational);
+        let (scheme, count) = (OneSet::Point(PointRule::Variational), models.len());
         let mut all = Self {
             rule,
-            in_state: ModelPoints::new(scheme, &mut models.into_iter(), places),
-            equations: Vec::with_capacity(places.len()),
+            in_state: ModelPoints::new(scheme, (&mut models.into_iter(), places, count)),
+            equations: Vec::with_capacity(count),
         };
         let [unknowns, inputs] = all.unknowns_and_inputs();
         let (dashpots, is_thermal) = all.dashpots_and_temperature();
-        for _ in places {
+        for _ in 0..count {
             all.equations.push(equations(StagePoint {
                 rule,
                 dashpots,

@@ -9,7 +9,7 @@
 //! sets; their inputs are `y = (π…, Q…)`.
 
 mod at_stage;
-mod local;
+pub(in crate::element::group) mod local;
 
 use super::geometry::{At, AtMut, Geometry};
 use super::models::ValueModels;
@@ -24,8 +24,6 @@ use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, Weights};
 use crate::element::tableau::{Ending, MOST_SETS, MOST_STAGES, Tableau};
 use eem_material::free_energy::Array;
-
-pub(crate) use local::StageValues;
 
 /// A point among its nodes at the stages.
 pub(crate) struct Values<K: Kinematics<D>, const D: usize> {

@@ -102,7 +102,7 @@ impl<const D: usize> Simulation<D> {
             }
             Quantity::Stretch(element) => {
                 let [group, place] = self.run.place(*element);
-                let &[a, b] = self.stepper().elements(group).nodes(place) else {
+                let &[a, b] = self.run.stepper.elements(group).nodes(place) else {
                     return Err(no_derivative(quantity));
                 };
                 let [a, b] = [a, b].map(|node| node as usize);

@@ -227,7 +227,7 @@ impl<const D: usize> Simulation<D> {
     fn parameter_of(&self, element: Element, name: &str) -> Result<Vec<f64>, GradientError> {
         self.run.expect_own(&element)?;
         let [group, _] = self.run.place(element);
-        let group = self.stepper().elements(group);
+        let group = self.run.stepper.elements(group);
         let known = group.parameters();
         let Some(place) = known.iter().position(|own| *own == name) else {
             return Err(GradientError::no_parameter(&element, name, known));
@@ -248,7 +248,7 @@ impl<const D: usize> Simulation<D> {
         let unit = match &input.of {
             InputOf::Parameter(elements, name) => elements.first().and_then(|&element| {
                 let [group, _] = own(&element).then(|| self.run.place(element))?;
-                let group = self.stepper().elements(group);
+                let group = self.run.stepper.elements(group);
                 let place = group.parameters().iter().position(|own| *own == name)?;
                 group.parameter_units().get(place).copied()
             }),

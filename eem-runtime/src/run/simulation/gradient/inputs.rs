@@ -270,8 +270,8 @@ pub(super) fn add_to<const D: usize>(
 
 impl<const D: usize> Simulation<D> {
     /// All elements in the order of creation: the capabilities of their group, the group, and their index there.
-    pub(super) fn all_elements(&self) -> impl Iterator<Item = (Shape, &dyn Elements<D>, usize)> {
-        let stepper = self.stepper();
+    pub(super) fn all_elements(&self) -> impl Iterator<Item = (Shape, &dyn Elements, usize)> {
+        let stepper = &self.run.stepper;
         let places = self.run.all_places();
         places.map(move |([group, place], shape)| (shape, stepper.elements(group), place))
     }
