@@ -6,7 +6,7 @@ use super::placed::{OfGroup, PlacedPoint};
 use super::point::{Point, grown, variables};
 use super::points::PointSet;
 use super::pose::Pose;
-use crate::element::conjugates::Family;
+use crate::element::conjugates::{Any, Family};
 use crate::element::error::StateError;
 use crate::element::group::view::{Before, Old, StepView};
 use crate::element::kinematics::{Kinematics, MeasureSet, Numbers};
@@ -180,7 +180,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
             heat += view.conduction.heat_flow(slot, theta, temperatures).heat;
             rates[Self::TEMPERATURE] = share * heat / theta;
         }
-        if let Some(at_point) = &mut self.single {
+        if let Some(at_point) = self.single_mut::<Any>() {
             (at_point.old_rates, at_point.old_power) = (rates, old_power);
         }
         if self.is_thermal() && self.scheme.is_in_temperature() {
@@ -200,7 +200,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
         for a in 0..A::MEASURES {
             rest -= slope(a) * share * speeds[a];
         }
-        if let Some(at_point) = &mut self.single {
+        if let Some(at_point) = self.single_mut::<Any>() {
             for index in A::MEASURES..last {
                 rest -= slope(index) * at_point.old_rates[index];
             }

@@ -1,7 +1,7 @@
 //! Responses of a point as functions of its measures and of the heat that it receives.
 
+use super::eliminate::CondensedRow;
 use super::point::Point;
-use super::points::CondensedRow;
 use crate::element::conjugates::{Family, Form};
 use crate::element::kinematics::{MeasureSet, Numbers};
 use eem_material::arrays::Arrays;

@@ -44,7 +44,11 @@ impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Applies the corrections of the local unknowns; returns the largest in their units.
-    #[inline]
+    #[expect(
+        clippy::inline_always,
+        reason = "a call costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
     pub(super) fn correct<C: Family>(
         &mut self,
         (changes, by_motion): (&Numbers<Q>, f64),

@@ -13,16 +13,6 @@ use eem_material::arrays::Arrays;
 use eem_material::free_energy::Array;
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
-    /// Its damping in a damped scheme.
-    #[inline]
-    pub(super) fn damping<C: Family>(&self) -> Option<&DampingOf<A>> {
-        if C::IS_EXACT {
-            None
-        } else {
-            self.damping.as_deref()
-        }
-    }
-
     /// Finds the damping of a step from its old state.
     #[inline]
     pub(super) fn begin_damping<C: Family>(&mut self, view: &StepView<'_>) {
@@ -50,8 +40,8 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
             }
             damping.modes = modes;
         }
-        if let Some(own) = &mut self.damping {
-            **own = damping;
+        if let Some(own) = self.damping_mut() {
+            *own = damping;
         }
     }
 
@@ -76,7 +66,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
             increments[row] = self.increment_of(row);
         }
         let (dashpots, mut heat) = (self.dashpots(), 0.0);
-        if let Some(damping) = &mut self.damping {
+        if let Some(damping) = self.damping_mut() {
             damping.force = A::Variables::filled(0.0);
             for k in 0..dashpots {
                 let mode = &damping.modes[k];

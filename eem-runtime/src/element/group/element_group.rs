@@ -106,13 +106,10 @@ where
         (sets, per_block): (Vec<Box<P>>, usize),
         placed: Placed<'_>,
     ) -> Self {
-        let mut members = Vec::with_capacity(loose.elements.len());
-        for element in &loose.elements {
-            members.push(Member::new(of.scheme, element, placed));
-        }
+        let how = (per_block, placed);
         Self {
             of,
-            elements: Blocks::new(members, sets, per_block),
+            elements: Blocks::new(of.scheme, &loose.elements, sets, how),
             contacts: Contacts::none(),
             loose: loose.without_elements(),
             shares: Vec::new(),

@@ -9,10 +9,10 @@ use super::placed::{PlacedPoint, admissible};
 use super::point_step::SeeParameters;
 use super::points::{HasPoints, Measured, PointsInState};
 use super::stiffness::Stiffness;
-use crate::element::conjugates::Placement;
+use crate::element::conjugates::{OneSet, Placement};
 use crate::element::error::StateError;
 use crate::element::group::audit::Misfit;
-use crate::element::group::view::{ElementGeneric, ElementTotals, ElementView};
+use crate::element::group::view::{ElementGeneric, ElementTotals, ElementView, Placed};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, Measures, SolidState};
 use crate::element::layout::Slots;
@@ -343,12 +343,19 @@ impl<K: Kinematics<D>, P: ?Sized + HasPoints<K::Measures>, const D: usize> Block
         elements
     }
 
-    /// Those of elements, with the sets of their points.
-    pub(super) fn new(members: Vec<Member<K, D>>, sets: Vec<Box<P>>, per_block: usize) -> Self {
-        let mut members = members.into_iter();
+    /// Those of elements that a scheme steps, with the sets of their points.
+    pub(super) fn new(
+        scheme: OneSet,
+        elements: &[LooseElement<K, D>],
+        sets: Vec<Box<P>>,
+        (per_block, placed): (usize, Placed<'_>),
+    ) -> Self {
         let mut blocks = Vec::with_capacity(sets.len());
-        for points in sets {
-            let members = members.by_ref().take(per_block).collect();
+        for (elements, points) in elements.chunks(per_block).zip(sets) {
+            let mut members = Vec::with_capacity(elements.len());
+            for element in elements {
+                members.push(Member::new(scheme, element, placed));
+            }
             blocks.push(Block { members, points });
         }
         Self {

@@ -63,6 +63,24 @@ impl<A: Arrays, Q: MeasureSet> Condensed<A, Q> {
     }
 }
 
+/// A response with the internal variables eliminated: `value + Σ_a by_measure_a δπ_a − by_heat δr_s`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CondensedRow<V> {
+    pub(super) value: f64,
+    pub(super) by_measure: V,
+    pub(super) by_heat: f64,
+}
+
+impl<V: Array<f64>> CondensedRow<V> {
+    pub(super) fn none() -> Self {
+        Self {
+            value: 0.0,
+            by_measure: V::filled(0.0),
+            by_heat: 0.0,
+        }
+    }
+}
+
 /// The local equations of an element, a row per unknown. Arrays have an entry per variable, of which the first are
 /// used.
 pub(super) struct LocalSystem<A: Arrays> {

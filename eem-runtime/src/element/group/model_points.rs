@@ -254,6 +254,7 @@ impl<A: Arrays, Q: MeasureSet, C: Family> PointsInState<Q> for ModelPoints<A, Q,
     reason = "where the points are not behind a table, a step is compiled as a whole"
 )]
 impl<A: Arrays, Q: MeasureSet, C: Family> PointSet<Q> for ModelPoints<A, Q, C> {
+    #[cfg(feature = "gradients")]
     fn contact(&self, index: usize) -> usize {
         self.points[index].contact as usize
     }

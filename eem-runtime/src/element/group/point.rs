@@ -111,10 +111,15 @@ pub(crate) struct Point<A: Arrays, Q: MeasureSet> {
     pub(super) drag: Drag<A::Drag>,
     /// Local unknowns as functions of the global ones.
     pub(super) condensed: Condensed<A, Q>,
-    /// Only for schemes that evaluate the model at one point of the step.
-    pub(super) single: Option<Box<PointMemory<A::Variables>>>,
-    /// Only for a damped scheme.
-    pub(super) damping: Option<Box<DampingOf<A>>>,
+    /// What only some schemes have.
+    special: Option<Box<Special<A>>>,
+}
+
+/// The variables of a point in a scheme that is not [exact](OneSet::Exact).
+enum Special<A: Arrays> {
+    /// For a scheme that evaluates the model at one point of the step.
+    Single(PointMemory<A::Variables>),
+    Damped(DampingOf<A>),
 }
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
@@ -133,8 +138,11 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     pub(super) fn new(scheme: OneSet, element: Element, model: Tabled<A>, slots: Slots) -> Self {
         let zeros = A::Variables::filled(0.0);
         let viscosities = A::Viscosities::filled(0.0);
-        let is_classical = matches!(scheme, OneSet::Point(_));
-        let is_damped = matches!(scheme, OneSet::Damped);
+        let special = match scheme {
+            OneSet::Exact(_) => None,
+            OneSet::Damped => Some(Special::Damped(DampingOf::<A>::none())),
+            OneSet::Point(_) => Some(Special::Single(PointMemory::zero())),
+        };
         Self {
             scheme,
             element,
@@ -155,8 +163,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
             viscosities: (viscosities, viscosities),
             drag: Drag::zero(A::Drag::filled(0.0)),
             condensed: Condensed::zero(),
-            single: is_classical.then(|| Box::new(PointMemory::zero())),
-            damping: is_damped.then(|| Box::new(DampingOf::<A>::none())),
+            special: special.map(Box::new),
         }
     }
 
@@ -215,20 +222,35 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Its variables of a scheme that evaluates the model at one point.
     #[inline]
     pub(super) fn single<C: Family>(&self) -> Option<&PointMemory<A::Variables>> {
-        if C::IS_EXACT {
-            None
-        } else {
-            self.single.as_deref()
+        match self.special.as_deref() {
+            Some(Special::Single(single)) if !C::IS_EXACT => Some(single),
+            _ => None,
         }
     }
 
     /// The same, mutable.
     #[inline]
     pub(super) fn single_mut<C: Family>(&mut self) -> Option<&mut PointMemory<A::Variables>> {
-        if C::IS_EXACT {
-            None
-        } else {
-            self.single.as_deref_mut()
+        match self.special.as_deref_mut() {
+            Some(Special::Single(single)) if !C::IS_EXACT => Some(single),
+            _ => None,
+        }
+    }
+
+    /// Its damping in a damped scheme.
+    #[inline]
+    pub(super) fn damping<C: Family>(&self) -> Option<&DampingOf<A>> {
+        match self.special.as_deref() {
+            Some(Special::Damped(damping)) if !C::IS_EXACT => Some(damping),
+            _ => None,
+        }
+    }
+
+    /// The same, mutable.
+    pub(super) fn damping_mut(&mut self) -> Option<&mut DampingOf<A>> {
+        match self.special.as_deref_mut() {
+            Some(Special::Damped(damping)) => Some(damping),
+            _ => None,
         }
     }
 

@@ -1,7 +1,7 @@
 //! A completed step, for its adjoint and its tangents: its states, derivatives with respect to them or of them, and the
 //! weights of its equations.
 
-use super::points::CondensedRow;
+use super::eliminate::CondensedRow;
 use super::site::HeatPath;
 use super::terms::Terms;
 use super::view::StepView;

@@ -7,6 +7,7 @@
 use core::any::Any;
 
 use super::audit::Misfit;
+use super::eliminate::CondensedRow;
 #[cfg(feature = "gradients")]
 use super::point_step::{
     Direction, PastStep, PerVariable, Reduced, SeeParameters, StepBack, StepWeights, Surroundings,
@@ -145,24 +146,6 @@ pub(crate) struct TrialView<'a> {
     pub(super) contacts: &'a [HeatContact],
 }
 
-/// A response with the internal variables eliminated: `value + Σ_a by_measure_a δπ_a − by_heat δr_s`.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct CondensedRow<V> {
-    pub(super) value: f64,
-    pub(super) by_measure: V,
-    pub(super) by_heat: f64,
-}
-
-impl<V: Array<f64>> CondensedRow<V> {
-    pub(super) fn none() -> Self {
-        Self {
-            value: 0.0,
-            by_measure: V::filled(0.0),
-            by_heat: 0.0,
-        }
-    }
-}
-
 /// What nodes tell a point of a trial, and what it answers.
 #[derive(Clone, Copy)]
 pub(crate) struct Exchange<Q: MeasureSet> {
@@ -218,6 +201,7 @@ pub(crate) trait PointSet<Q: MeasureSet>:
     PointsInState<Q> + HasPoints<Q> + PastPoints<Q>
 {
     /// The index of the contact of a point, out of range without one.
+    #[cfg(feature = "gradients")]
     fn contact(&self, index: usize) -> usize;
 
     /// Takes that index, and whether it exchanges heat with reservoirs.

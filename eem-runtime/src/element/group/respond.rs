@@ -4,7 +4,7 @@ use super::arms::measures_in;
 use super::point::{Point, temperature_in};
 use super::points::{Exchange, TrialView};
 use super::site::paths_of;
-use crate::element::conjugates::{Family, Form, check_stable};
+use crate::element::conjugates::{Any, Family, Form, check_stable};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::{MeasureSet, Numbers};
@@ -233,7 +233,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
         for (a, &increment) in measures.as_ref().iter().enumerate() {
             increments[a] = increment;
         }
-        if let Some(at_point) = &self.single {
+        if let Some(at_point) = self.single::<Any>() {
             for index in A::MEASURES..last {
                 let change = self.x[index] - old[index];
                 increments[index] = change - step * at_point.old_rates[index];

@@ -2,9 +2,10 @@
 //! element. Anchors have no equations.
 
 use super::arms::{add_scaled, scale};
+use super::eliminate::CondensedRow;
 use super::member::Member;
 use super::placed::{OfGroup, PlacedPoint};
-use super::points::{CondensedRow, Exchange, TrialView};
+use super::points::{Exchange, TrialView};
 use super::pose::Pose;
 use super::site::{ContactSite, HeatContact, Site};
 use crate::element::conjugates::Family;

@@ -53,17 +53,20 @@ impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> StageGroup<K, G, 
     ) -> Self {
         let [unknowns, inputs] = models.unknowns_and_inputs();
         let scheme = OneSet::Point(PointRule::Variational);
-        let (mut members, mut elements, mut place) = (Vec::new(), Vec::new(), 0);
-        for element in &loose.elements {
-            let own = Member::new(scheme, element, placed);
+        let how = (loose.elements.len().max(1), placed);
+        let elements: Blocks<K, G::Models, D> =
+            Blocks::new(scheme, &loose.elements, vec![models], how);
+        let block = &elements.blocks[0];
+        let (mut members, mut place) = (Vec::new(), 0);
+        for own in &block.members {
             let mut points = Vec::with_capacity(Member::<K, D>::POINTS);
-            for &kinematics in element.1.as_ref() {
-                let (handle, slots) = models.in_state().place(place);
+            for point in own.points.as_ref() {
+                let (handle, slots) = block.points.in_state().place(place);
                 points.push(StagedPoint {
                     place,
                     element: handle,
                     slot: slots.thermal,
-                    geometry: G::new(rule, kinematics),
+                    geometry: G::new(rule, point.kinematics),
                     contacts: None,
                 });
                 place += 1;
@@ -72,12 +75,10 @@ impl<K: QuadraticStrain<D>, G: Geometry<K, D>, const D: usize> StageGroup<K, G, 
                 site: StageSite::unconnected(own.site),
                 points,
             });
-            elements.push(own);
         }
-        let per_block = elements.len().max(1);
         Self {
             rule,
-            elements: Blocks::new(elements, vec![models], per_block),
+            elements,
             members,
             loose: loose.without_elements(),
             forces: Box::new(StageForces::zero()),
