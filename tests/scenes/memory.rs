@@ -23,7 +23,7 @@ fn chain() -> Scene<2> {
     scene
 }
 
-/// Of a thermoelastic spring in the plane with its node: the element and its part of the trial state, with three pointers to what
+/// Of a thermoelastic spring in the plane with its node: the element and its part of the trial state, with two pointers to what
 /// classical and damped schemes need beside it, and its material behind a table, 512 B;
 /// the tangent with its pattern, factors and solution, 284 B; the old and the new state with their
 /// energies, 256 B; the solver's vectors, with two earlier temperatures, 16 B; what the simulation knows of node and element,

@@ -34,7 +34,7 @@ impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<
     #[inline]
     pub(super) fn begin<C: Family>(
         &mut self,
-        of: &OfGroup,
+        of: OfGroup,
         view: &StepView<'_>,
         old: &mut Old<'_, D>,
     ) -> Result<(), StateError> {
@@ -62,7 +62,7 @@ impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<
     /// Finds the part of rates and nodal forces that the scheme takes from the old state.
     fn take_old_share(
         &mut self,
-        of: &OfGroup,
+        of: OfGroup,
         view: &StepView<'_>,
         old_force: &mut [[f64; D]],
     ) -> Result<(), StateError> {

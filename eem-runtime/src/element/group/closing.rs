@@ -35,7 +35,7 @@ impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<
     #[inline]
     pub(super) fn add_impulse<C: Family>(
         &self,
-        of: &OfGroup,
+        of: OfGroup,
         (view, trial): At<'_, D>,
         along: Along,
         (impulses, magnitudes): (&mut Impulses<'_, D>, &mut [f64]),
@@ -82,7 +82,7 @@ impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<
     #[inline]
     pub(super) fn close<C: Family>(
         &mut self,
-        of: &OfGroup,
+        of: OfGroup,
         at: At<'_, D>,
         contacts: &Contacts<K, D>,
         (next, tally): (&mut State, &mut Tally),
@@ -287,7 +287,7 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
         ];
         let largest = self.largest_pull::<C>(&end.slopes);
         let is_thorough = matches!(tally.care, Care::Thorough);
-        let of_sums = is_thorough.then(|| largest * end.way);
+        let of_sums = is_thorough.then_some(largest * end.way);
         let [forces, at_end] = self.amplitude::<C>(&sizes, of_sums);
         tally.force(forces);
         tally.exchange(view.step * largest);

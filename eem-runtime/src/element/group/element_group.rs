@@ -163,7 +163,7 @@ where
 
     fn begin(&mut self, view: &StepView<'_>, old: &mut Old<'_, D>) -> Result<(), StateError> {
         for block in &mut self.elements.blocks {
-            block.begin::<C>(&self.of, view, old)?;
+            block.begin::<C>(self.of, view, old)?;
         }
         Ok(())
     }
@@ -214,7 +214,7 @@ where
     ) {
         for block in &self.elements.blocks {
             let target = (&mut *impulses, &mut *magnitudes);
-            block.add_impulse::<C>(&self.of, (view, trial), along, target);
+            block.add_impulse::<C>(self.of, (view, trial), along, target);
         }
     }
 
@@ -227,7 +227,7 @@ where
     ) -> Result<(), StateError> {
         for block in &mut self.elements.blocks {
             let books = (&mut *next, &mut *tally);
-            block.close::<C>(&self.of, (view, trial), &self.contacts, books)?;
+            block.close::<C>(self.of, (view, trial), &self.contacts, books)?;
         }
         Ok(())
     }

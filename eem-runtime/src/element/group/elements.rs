@@ -16,7 +16,7 @@ use crate::element::group::view::{ElementGeneric, ElementTotals, ElementView, Pl
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, Measures, SolidState};
 use crate::element::layout::Slots;
-use crate::element::state::State;
+use crate::element::state::{Energy, State};
 use eem_material::free_energy::Array;
 use eem_material::number::digest::Digest;
 
@@ -35,9 +35,16 @@ type See<'a, K, const D: usize> = dyn FnMut(
         &PlacedPoint<K, D>,
     ) + 'a;
 
+/// The same with the arms of the element.
+type SeeIn<'a, K, const D: usize> = dyn FnMut(
+        &dyn PointsInState<<K as Kinematics<D>>::Measures>,
+        usize,
+        &PlacedPoint<K, D>,
+        (&Member<K, D>, &Arms<K, D>),
+    ) + 'a;
+
 impl<K: Kinematics<D>, P: ?Sized + HasPoints<K::Measures>, const D: usize> Blocks<K, P, D> {
     /// Where the point with this index in the group is: the points of its block and its index there, its element, and its geometry.
-    #[expect(clippy::type_complexity, reason = "as the documentation says")]
     pub(super) fn at(
         &self,
         place: usize,
@@ -60,17 +67,8 @@ impl<K: Kinematics<D>, P: ?Sized + HasPoints<K::Measures>, const D: usize> Block
         }
     }
 
-    /// Passes the arms of each point, too.
-    fn each_in(
-        &self,
-        state: &State,
-        see: &mut dyn FnMut(
-            &dyn PointsInState<K::Measures>,
-            usize,
-            &PlacedPoint<K, D>,
-            (&Member<K, D>, &Arms<K, D>),
-        ),
-    ) {
+    /// Passes the arms in a state, too.
+    fn each_in(&self, state: &State, see: &mut SeeIn<'_, K, D>) {
         self.each(&mut |points, index, member, point| {
             see(points, index, point, (member, &member.arms_in(state)));
         });
@@ -313,7 +311,7 @@ fn energy<K: Kinematics<D>, const D: usize>(
     index: usize,
     point: &PlacedPoint<K, D>,
     (r, state): (&Arms<K, D>, &State),
-) -> crate::element::state::Energy {
+) -> Energy {
     let measures = point.kinematics.measure(r);
     let sizes = point.kinematics.sizes(r, &measures);
     points.energy(

@@ -25,7 +25,7 @@ where
         at: At<'_, D>,
         system: &mut LinearSystem<1>,
     ) -> Result<(), StateError> {
-        let (of, contacts) = (&self.of, &self.contacts);
+        let (of, contacts) = (self.of, &self.contacts);
         let (values, right) = system.parts();
         if const { Member::<K, D>::POINTS == 1 } {
             for block in &mut self.elements.blocks {
@@ -65,9 +65,9 @@ where
     pub(super) fn respond(&mut self, at: At<'_, D>) -> Result<(), StateError> {
         for block in &mut self.elements.blocks {
             if !C::IS_EXACT && block.points.is_together() {
-                block.evaluate_together::<C>(&self.of, at, &self.contacts, false);
+                block.evaluate_together::<C>(self.of, at, &self.contacts, false);
             }
-            block.respond::<C>(&self.of, at, &self.contacts)?;
+            block.respond::<C>(self.of, at, &self.contacts)?;
         }
         Ok(())
     }
@@ -79,7 +79,7 @@ impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<
     #[inline(never)]
     fn evaluate_together<C: Family>(
         &mut self,
-        of: &OfGroup,
+        of: OfGroup,
         at: At<'_, D>,
         contacts: &Contacts<K, D>,
         has_tangent: bool,
@@ -105,7 +105,7 @@ impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<
     #[inline]
     fn respond<C: Family>(
         &mut self,
-        of: &OfGroup,
+        of: OfGroup,
         at: At<'_, D>,
         contacts: &Contacts<K, D>,
     ) -> Result<(), StateError> {
@@ -137,7 +137,7 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
     fn linearize<C: Family, P: ?Sized + PointSet<K::Measures>>(
         &mut self,
         (index, points): (usize, &mut P),
-        of: &OfGroup,
+        of: OfGroup,
         at: At<'_, D>,
         contacts: &Contacts<K, D>,
         share: &mut Share<K, D>,
@@ -168,7 +168,7 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
     fn take<C: Family>(
         &mut self,
         index: usize,
-        of: &OfGroup,
+        of: OfGroup,
         (view, _): At<'_, D>,
         (arms, exchange): (&TrialArms<K, D>, &Exchange<K::Measures>),
         share: &mut Share<K, D>,

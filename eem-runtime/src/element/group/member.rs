@@ -74,7 +74,7 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
     #[inline(always)]
     pub(super) fn trial_arms<C: Family>(
         &self,
-        of: &OfGroup,
+        of: OfGroup,
         (view, trial): At<'_, D>,
     ) -> TrialArms<K, D> {
         let at = C::placement(of.scheme);

@@ -45,7 +45,7 @@ impl OfGroup {
 
     /// Whether the points need the increments of their measures. Elements of a known family have no Kelvin–Voigt dashpots.
     #[inline]
-    pub(super) fn has_increments<C: Family>(&self) -> bool {
+    pub(super) fn has_increments<C: Family>(self) -> bool {
         !C::IS_EXACT && (self.has_drag || self.is_thermal && self.scheme.is_in_temperature())
     }
 }
@@ -81,7 +81,7 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
     #[inline(always)]
     pub(super) fn place<C: Family>(
         &mut self,
-        of: &OfGroup,
+        of: OfGroup,
         arms: &TrialArms<K, D>,
         exchange: &mut Exchange<K::Measures>,
     ) -> bool {
@@ -103,7 +103,7 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
 
     /// Finds the measures of a trial; false if the deformation is inadmissible.
     #[inline]
-    pub(super) fn measure<C: Family>(&mut self, of: &OfGroup, arms: &TrialArms<K, D>) -> bool {
+    pub(super) fn measure<C: Family>(&mut self, of: OfGroup, arms: &TrialArms<K, D>) -> bool {
         let measures = self.kinematics.measure(&arms.placed);
         let at = C::placement(of.scheme);
         self.measures = placed_measures::<K, D>(at, &self.measures0, measures);
@@ -116,7 +116,7 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
         reason = "a call costs 1 % of a step of a spring"
     )]
     #[inline(always)]
-    pub(super) fn pose<C: Family>(&self, of: &OfGroup, arms: &TrialArms<K, D>) -> Pose<K, D> {
+    pub(super) fn pose<C: Family>(&self, of: OfGroup, arms: &TrialArms<K, D>) -> Pose<K, D> {
         let mut measures = [self.measures0, self.measures];
         if !C::IS_EXACT && C::placement(of.scheme) == Placement::Start {
             measures[1] = self.kinematics.measure(&arms.placed);
@@ -130,7 +130,7 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
     #[inline]
     pub(super) fn take_sensitivity<C: Family>(
         &mut self,
-        of: &OfGroup,
+        of: OfGroup,
         pose: &Pose<K, D>,
         arms: &TrialArms<K, D>,
         exchange: &Exchange<K::Measures>,

@@ -55,7 +55,7 @@ where
                     ((index, &mut **points), (interface, &mut *temperatures));
                 let (share, by_old) = member.push_forward(
                     points,
-                    (step, &self.of),
+                    (step, self.of),
                     contacts,
                     temperatures,
                     directions,
@@ -92,7 +92,7 @@ impl<K: Kinematics<D>, const D: usize> Member<K, D> {
     fn push_forward<P: ?Sized + PointSet<K::Measures>>(
         &mut self,
         (index, points): (usize, &mut P),
-        (step, of): (&PastStep<'_>, &OfGroup),
+        (step, of): (&PastStep<'_>, OfGroup),
         contacts: &Contacts<K, D>,
         (interface, temperatures): (&InterfaceTemperatures, &mut [f64]),
         directions: &mut [Direction],

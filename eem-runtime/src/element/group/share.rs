@@ -95,7 +95,7 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
     #[inline(always)]
     pub(super) fn add_momentum<C: Family>(
         &self,
-        (of, step): (&OfGroup, f64),
+        (of, step): (OfGroup, f64),
         (pose, increments_by_arm): (&Pose<K, D>, Option<&Gradient<K, D>>),
         exchange: &Exchange<K::Measures>,
         heat: &mut Option<Heat<K, D>>,
