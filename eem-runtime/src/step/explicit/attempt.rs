@@ -143,10 +143,9 @@ impl<const D: usize> Explicit<D> {
     #[inline]
     fn store(&mut self, next: &mut State) {
         let masses = &self.places[..self.components.masses];
-        let nodes = &self.components.nodes[..masses.len()];
-        for at in 0..masses.len() {
-            next.positions.set_point(nodes[at], masses[at].q());
-            next.momenta.set_point(nodes[at], masses[at].p());
+        for (place, &node) in masses.iter().zip(&self.components.nodes) {
+            next.positions.set_point(node, place.q());
+            next.momenta.set_point(node, place.p());
         }
         for moved in &self.prescribed.moved {
             let end = &points::<D>(&moved.positions)[STAGES - 1];
