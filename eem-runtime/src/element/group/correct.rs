@@ -14,14 +14,16 @@ use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 
 impl<K: Kinematics<D>, P: ?Sized + PointSet<K::Measures>, const D: usize> Block<K, P, D> {
-    /// Applies the corrections of the internal variables for a global solution; returns the largest in their units.
+    /// Applies the corrections of the internal variables for a global solution; returns the largest in their units, or that of the blocks
+    /// before.
     #[inline]
     pub(super) fn correct<C: Family>(
         &mut self,
         contacts: &Contacts<K, D>,
         solution: &[[f64; 1]],
+        mut largest: f64,
     ) -> f64 {
-        let (mut largest, mut index) = (0.0, 0);
+        let mut index = 0;
         for member in &self.members {
             let motion = member.site.motion_in(solution);
             for point in member.points.as_ref() {

@@ -27,7 +27,6 @@ use crate::element::tally::{Reevaluation, Tally};
 use eem_material::arrays::Arrays;
 use eem_material::free_energy::MOST_TOGETHER;
 use eem_material::number::compact::compact;
-use eem_material::number::scalar::Scalar;
 
 /// Elements of one model with the kinematics `K`, with points `P` and schemes of the family `C`.
 ///
@@ -186,8 +185,7 @@ where
             return largest;
         }
         for block in &mut self.elements.blocks {
-            let update = block.correct::<C>(&self.contacts, solution);
-            largest = Scalar::maximum(largest, update);
+            largest = block.correct::<C>(&self.contacts, solution, largest);
         }
         largest
     }
