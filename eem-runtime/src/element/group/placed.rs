@@ -111,11 +111,7 @@ impl<K: Kinematics<D>, const D: usize> PlacedPoint<K, D> {
     }
 
     /// The gradients in the configuration that the scheme uses.
-    #[expect(
-        clippy::inline_always,
-        reason = "a call costs 1 % of a step of a spring"
-    )]
-    #[inline(always)]
+    #[inline]
     pub(super) fn pose<C: Family>(&self, of: OfGroup, arms: &TrialArms<K, D>) -> Pose<K, D> {
         let mut measures = [self.measures0, self.measures];
         if !C::IS_EXACT && C::placement(of.scheme) == Placement::Start {

@@ -168,7 +168,7 @@ impl<const D: usize> Solver<D> {
             let first = self.nodes_of_set(set).first().map_or(0, Balance::row);
             let (values, right) = self.tangent.parts();
             let right = &mut right.as_flattened_mut()[first..];
-            self.coupling.balance(set, inertia, values, right);
+            self.coupling.balance::<D>(set, inertia, values, right);
         }
     }
 

@@ -182,29 +182,28 @@ impl Coupling {
 
     /// Adds inertia times the factors to residual and tangent of a set, whose rows begin with the given ones, as a
     /// [`Balance`] does on the diagonal.
-    pub(super) fn balance(
+    pub(super) fn balance<const D: usize>(
         &self,
         set: usize,
         inertia_per_mass: f64,
         values: &mut [f64],
         right: &mut [f64],
     ) {
-        let d = self.dimension;
-        let places = self.places.chunks_exact(2 * d);
-        for (pair, places) in self.pairs.iter().zip(places.skip(set * self.pairs.len())) {
+        let (places, right) = (self.places.as_chunks::<D>().0, right.as_chunks_mut::<D>().0);
+        let (places, factors) = (places.as_chunks::<2>().0, self.factors.as_chunks::<D>().0);
+        for (pair, places) in self.pairs.iter().zip(&places[set * self.pairs.len()..]) {
             let [a, b] = indices(pair.nodes);
             let inertia = pair.mass * inertia_per_mass;
-            for &place in places {
+            for &place in places.as_flattened() {
                 values[place as usize] += inertia;
             }
             for [own, other] in [[a, b], [b, a]] {
-                let change = &self.factors[2 * d * other..][..d];
-                add(&mut right[d * own..], -inertia, change);
+                add(&mut right[own], -inertia, &factors[2 * other]);
             }
         }
         for drive in &self.drives {
-            let impulses = &drive.sums[2 * d * set..][..d];
-            add(&mut right[d * drive.node..], -1.0, impulses);
+            let impulses = &drive.sums.as_chunks::<D>().0[2 * set];
+            add(&mut right[drive.node], -1.0, impulses);
         }
     }
 
