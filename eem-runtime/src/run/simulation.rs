@@ -65,7 +65,7 @@ use crate::step::timed::TimedLoad;
 use memory::{Automatic, Control, Unresolved};
 use start::{FirstState, Needs, Outline, Used, find_entropies};
 use stepper::{Memory, Newton, Stepper};
-use stepping::{Stepping, site_of};
+use stepping::Stepping;
 
 /// A run: a scene, a scheme and the present state.
 ///
@@ -197,12 +197,12 @@ impl<const D: usize> Simulation<D> {
         let memory = if let Some(newton) = newton {
             Memory::Used(newton)
         } else {
-            let site = site_of(outline.site(&plan.loads));
+            let site = outline.site(&plan.loads);
             let systems = Memory::new(in_use, site, plan.memory_limit);
             systems.map_err(|error| vec![error.into()])?
         };
         let groups = mem::take(&mut scene.groups);
-        let parts = (in_use, site_of(outline.site(&plan.loads)));
+        let parts = (in_use, outline.site(&plan.loads));
         let entries = &mut plan.entries;
         let stepper = Stepper::new(
             groups,

@@ -126,9 +126,6 @@ pub(crate) struct Rocket {
     pub(crate) thrust: ScalarOfTime,
 }
 
-/// The loads of a scene of some dimension. They do not depend on it.
-pub(crate) type Loads<const D: usize> = SceneLoads;
-
 /// All loads of a scene, as given.
 #[derive(Clone)]
 pub(crate) struct SceneLoads {

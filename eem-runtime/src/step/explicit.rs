@@ -44,7 +44,7 @@ use crate::element::group::{Elements, ExplicitGroup, Loose, Place};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
-use crate::scene::loads::Loads;
+use crate::scene::loads::SceneLoads;
 use crate::step::control::LoadRounding;
 use accounts::Accounts;
 use bodies::BodiesIn;
@@ -55,7 +55,7 @@ use prescribed::Prescribed;
 pub(crate) use demand::Demand;
 pub(crate) use memory::SavedExplicit;
 pub(crate) use tableau::{REAL_LIMIT, load_rule, motion_rule};
-pub(crate) use view::{ExplicitView, View};
+pub(crate) use view::View;
 
 /// The explicit scheme for a scene.
 pub(crate) struct Explicit<const D: usize> {
@@ -71,17 +71,17 @@ pub(crate) struct Explicit<const D: usize> {
 
 /// The scene for which an explicit scheme is built.
 #[derive(Clone, Copy)]
-pub(crate) struct Site<'a, const D: usize> {
+pub(crate) struct Site<'a> {
     pub(crate) masses: &'a Masses,
     pub(crate) elements: &'a Ends,
     pub(crate) layout: &'a Layout,
     pub(crate) conduction: &'a Conduction,
-    pub(crate) loads: &'a Loads<D>,
+    pub(crate) loads: &'a SceneLoads,
 }
 
 impl<const D: usize> Explicit<D> {
     /// For these groups, which know their entropies already.
-    pub(crate) fn new(mut groups: Vec<Box<dyn ExplicitGroup<D>>>, site: Site<'_, D>) -> Self {
+    pub(crate) fn new(mut groups: Vec<Box<dyn ExplicitGroup<D>>>, site: Site<'_>) -> Self {
         let (components, ends) =
             Components::new(site.masses, site.elements, site.layout, site.conduction);
         for group in &mut groups {
@@ -115,10 +115,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// The accounts, and what they may ask of the bodies.
-    fn parts<'a>(
-        &'a mut self,
-        view: &'a ExplicitView<'a, D>,
-    ) -> (&'a mut Accounts, BodiesIn<'a, D>) {
+    fn parts<'a>(&'a mut self, view: &'a View<'a>) -> (&'a mut Accounts, BodiesIn<'a, D>) {
         let (groups, places) = (&self.groups, &self.places);
         let bodies = BodiesIn {
             places,

@@ -17,15 +17,13 @@ const HALVINGS: usize = 10;
 /// The start of a step of a size; borrows only the fields that it names.
 macro_rules! start {
     ($run:expr, $step:expr) => {
-        crate::run::simulation::stepper::Start {
-            view: crate::step::explicit::View {
-                step: $step,
-                state: &$run.state,
-                conduction: &$run.conduction,
-                masses: &$run.masses,
-                least: &$run.least,
-            },
+        crate::step::explicit::View {
+            step: $step,
+            state: &$run.state,
+            conduction: &$run.conduction,
             loads: &$run.loads,
+            masses: &$run.masses,
+            least: &$run.least,
         }
     };
 }

@@ -175,10 +175,10 @@ fn find_speed(motion: Written<'_>, [start, step]: [f64; 2], speeds: &mut [f64]) 
 }
 
 /// Finds the entropies of the initial state; all its errors if it is impossible.
-pub(super) fn find_entropies<const D: usize>(
+pub(super) fn find_entropies(
     elements: &mut [&mut dyn Elements],
     state: &mut State,
-    site: Site<'_, D>,
+    site: Site<'_>,
 ) -> Result<(), Vec<SceneError>> {
     let mut errors = Vec::new();
     for group in &mut *elements {
@@ -191,7 +191,7 @@ pub(super) fn find_entropies<const D: usize>(
             group.add_totals(state, &mut totals);
         }
         let ledger = Ledger::of(state, site.masses, &totals, reservoirs, gravity);
-        let infinite = ledger.infinite_entry(state, D);
+        let infinite = ledger.infinite_entry(state, site.loads.dimension());
         errors.extend(infinite.map(|(quantity, value, unit)| SceneError::Total {
             quantity,
             value,
@@ -231,7 +231,7 @@ impl Outline {
     }
 
     /// The same, for a scheme.
-    pub(super) fn site<'a>(&'a self, loads: &'a SceneLoads) -> Site<'a, 0> {
+    pub(super) fn site<'a>(&'a self, loads: &'a SceneLoads) -> Site<'a> {
         Site {
             masses: &self.masses,
             elements: &self.ends,

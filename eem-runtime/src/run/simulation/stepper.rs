@@ -8,14 +8,11 @@ use crate::element::state::State;
 use crate::element::tableau::Tableau;
 use crate::scene::error::SceneError;
 use crate::step::error::StepFailure;
-use crate::step::explicit::{Explicit, ExplicitView, Site};
+use crate::step::explicit::{Explicit, Site, View};
 use crate::step::outcome::Attempt;
 use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::{Effort, Solver};
 use crate::step::systems::Systems;
-
-/// A step from the present state, or another one of its size, whatever the dimension.
-pub(super) type Start<'a> = ExplicitView<'a, 0>;
 
 /// The elements of a scene without a scheme, a set per model.
 type Models<const D: usize> = Vec<Box<dyn Loose<D>>>;
@@ -66,7 +63,7 @@ impl<const D: usize> Memory<D> {
     /// The linear systems of a scheme for a scene.
     pub(super) fn new(
         scheme: Scheme,
-        site: Site<'_, D>,
+        site: Site<'_>,
         limit: MemoryLimit,
     ) -> Result<Self, TooLarge> {
         let elements = (site.elements, site.layout);
@@ -82,7 +79,7 @@ impl<const D: usize> Stepper<D> {
     pub(super) fn new(
         elements: Models<D>,
         memory: Memory<D>,
-        (scheme, site): (Scheme, Site<'_, D>),
+        (scheme, site): (Scheme, Site<'_>),
         state: &mut State,
         begin: Begin<'_, D>,
     ) -> Result<Self, (Vec<SceneError>, Models<D>)> {
@@ -137,7 +134,7 @@ impl<const D: usize> Newton<D> {
     fn new(
         groups: Vec<Box<dyn Group<D>>>,
         memory: Memory<D>,
-        (scheme, site): (Scheme, Site<'_, D>),
+        (scheme, site): (Scheme, Site<'_>),
         state: &State,
     ) -> Box<Self> {
         let (masses, layout, conduction) = (site.masses, site.layout, site.conduction);
@@ -173,7 +170,7 @@ impl<const D: usize> Newton<D> {
     /// Writes the state after a step.
     pub(super) fn step(
         &mut self,
-        start: &Start<'_>,
+        start: &View<'_>,
         effort: &mut Effort,
         next: &mut State,
     ) -> Result<Attempt, StepFailure> {
@@ -196,7 +193,7 @@ impl<const D: usize> Newton<D> {
     /// Residual and tangent of a step at given unknowns.
     pub(super) fn linearize(
         &mut self,
-        start: &Start<'_>,
+        start: &View<'_>,
         unknowns: &[f64],
         effort: &mut Effort,
     ) -> Result<(Vec<f64>, Vec<f64>), StepFailure> {
@@ -210,7 +207,7 @@ impl<const D: usize> Newton<D> {
 /// Evaluates the loads of a step, and those at its stages if the scheme has several.
 pub(super) fn evaluate_loads(
     (whole, stages): (&mut StepLoads, &mut [StepLoads]),
-    start: &Start<'_>,
+    start: &View<'_>,
     scheme: Scheme,
 ) -> Result<(), StepFailure> {
     let (loads, masses, old) = (start.loads, start.masses, start.state);
@@ -235,7 +232,7 @@ pub(super) fn evaluate_loads(
 /// The data shared by all elements during a step.
 #[inline]
 fn view_of<'a>(
-    start: &Start<'a>,
+    start: &View<'a>,
     phase: Phase,
     state: &'a State,
     (loads, stages): (&'a StepLoads, &'a [StepLoads]),

@@ -3,7 +3,7 @@
 use core::any::Any;
 use core::mem;
 
-use super::stepper::{Memory, Start, Stepper, each, evaluate_loads};
+use super::stepper::{Memory, Stepper, each, evaluate_loads};
 use crate::algebra::memory::{MemoryLimit, TooLarge};
 use crate::element::group::{ElementTotals, Elements, Group, Misfit, Stiffness};
 use crate::element::handle::Element;
@@ -11,55 +11,36 @@ use crate::element::layout::Slots;
 use crate::element::state::State;
 use crate::step::control::{Tolerance, Unknown};
 use crate::step::error::StepFailure;
-use crate::step::explicit::{Demand, ExplicitView, SavedExplicit, Site};
+use crate::step::explicit::{Demand, SavedExplicit, Site, View};
 use crate::step::outcome::Attempt;
 use crate::step::scheme::Scheme;
 use crate::step::solver::{Effort, SavedPast};
 use eem_material::number::digest::Digest;
-
-/// What an explicit scheme knows of it.
-const fn of_explicit<'a, const D: usize>(start: &Start<'a>) -> ExplicitView<'a, D> {
-    ExplicitView {
-        view: start.view,
-        loads: start.loads,
-    }
-}
-
-/// The scene of a run, whatever its dimension.
-pub(super) const fn site_of<const D: usize>(site: Site<'_, 0>) -> Site<'_, D> {
-    Site {
-        masses: site.masses,
-        elements: site.elements,
-        layout: site.layout,
-        conduction: site.conduction,
-        loads: site.loads,
-    }
-}
 
 /// A [`Stepper`] of some dimension, with which a run is compiled once and not for each dimension.
 pub(super) trait Stepping: Any + Send + Sync {
     /// Writes the state after a step. It is rejected if the scheme estimates its error and that is not within the demand.
     fn step(
         &mut self,
-        start: &Start<'_>,
+        start: &View<'_>,
         demand: Demand,
         effort: &mut Effort,
         next: &mut State,
     ) -> Result<Attempt, StepFailure>;
 
     /// Evaluates the loads of a step of an implicit scheme.
-    fn evaluate_loads(&mut self, start: &Start<'_>, scheme: Scheme) -> Result<(), StepFailure>;
+    fn evaluate_loads(&mut self, start: &View<'_>, scheme: Scheme) -> Result<(), StepFailure>;
 
     /// The unknown of an explicit scheme with the largest error in a step that was rejected, and what is allowed.
     fn worst_error(
         &mut self,
-        start: &Start<'_>,
+        start: &View<'_>,
         tolerance: &Tolerance,
         next: &mut State,
     ) -> Option<(Unknown, [f64; 2])>;
 
     /// A step relative to the limit of stability of an explicit scheme.
-    fn share_of_stable_step(&mut self, start: &Start<'_>) -> Option<f64>;
+    fn share_of_stable_step(&mut self, start: &View<'_>) -> Option<f64>;
 
     /// Whether an explicit scheme closes defects of energy by motion before heat.
     fn is_motion_first(&self) -> Option<bool>;
@@ -73,7 +54,7 @@ pub(super) trait Stepping: Any + Send + Sync {
     fn change(
         &mut self,
         scheme: Scheme,
-        site: Site<'_, 0>,
+        site: Site<'_>,
         limit: MemoryLimit,
         state: &mut State,
     ) -> Result<(), TooLarge>;
@@ -171,18 +152,18 @@ impl dyn Stepping {
 impl<const D: usize> Stepping for Stepper<D> {
     fn step(
         &mut self,
-        start: &Start<'_>,
+        start: &View<'_>,
         demand: Demand,
         effort: &mut Effort,
         next: &mut State,
     ) -> Result<Attempt, StepFailure> {
         match self {
             Self::Newton(newton) => newton.step(start, effort, next),
-            Self::Explicit(explicit) => explicit.step(&of_explicit(start), demand, next),
+            Self::Explicit(explicit) => explicit.step(start, demand, next),
         }
     }
 
-    fn evaluate_loads(&mut self, start: &Start<'_>, scheme: Scheme) -> Result<(), StepFailure> {
+    fn evaluate_loads(&mut self, start: &View<'_>, scheme: Scheme) -> Result<(), StepFailure> {
         match self {
             Self::Newton(newton) => {
                 evaluate_loads((&mut newton.loads, &mut newton.stages), start, scheme)
@@ -193,18 +174,16 @@ impl<const D: usize> Stepping for Stepper<D> {
 
     fn worst_error(
         &mut self,
-        start: &Start<'_>,
+        start: &View<'_>,
         tolerance: &Tolerance,
         next: &mut State,
     ) -> Option<(Unknown, [f64; 2])> {
-        let worst = self
-            .explicit()?
-            .worst_error(&of_explicit(start), tolerance, next);
+        let worst = self.explicit()?.worst_error(start, tolerance, next);
         worst.ok()?
     }
 
-    fn share_of_stable_step(&mut self, start: &Start<'_>) -> Option<f64> {
-        Some(self.explicit()?.share_of_stable_step(&of_explicit(start)))
+    fn share_of_stable_step(&mut self, start: &View<'_>) -> Option<f64> {
+        Some(self.explicit()?.share_of_stable_step(start))
     }
 
     fn is_motion_first(&self) -> Option<bool> {
@@ -232,11 +211,10 @@ impl<const D: usize> Stepping for Stepper<D> {
     fn change(
         &mut self,
         scheme: Scheme,
-        site: Site<'_, 0>,
+        site: Site<'_>,
         limit: MemoryLimit,
         state: &mut State,
     ) -> Result<(), TooLarge> {
-        let site = site_of(site);
         let memory = Memory::new(scheme, site, limit)?;
         let elements = match self {
             Self::Newton(newton) => each(mem::take(&mut newton.groups), Group::into_loose),

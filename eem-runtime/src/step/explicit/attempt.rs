@@ -4,7 +4,7 @@ use super::accounts::Accounts;
 use super::demand::Demand;
 use super::error::Measure;
 use super::tableau::STAGES;
-use super::{Explicit, ExplicitView};
+use super::{Explicit, View};
 use crate::element::group::points;
 use crate::element::state::State;
 use crate::step::error::StepFailure;
@@ -43,7 +43,7 @@ impl<const D: usize> Explicit<D> {
     /// [`forget`](Accounts::forget), from any state. The outcome is `None` if the error exceeds the demand.
     pub(crate) fn step(
         &mut self,
-        view: &ExplicitView<'_, D>,
+        view: &View<'_>,
         demand: Demand,
         next: &mut State,
     ) -> Result<Attempt, StepFailure> {
@@ -65,7 +65,7 @@ impl<const D: usize> Explicit<D> {
     #[inline]
     fn attempt(
         &mut self,
-        view: &ExplicitView<'_, D>,
+        view: &View<'_>,
         demand: Demand,
         next: &mut State,
     ) -> Result<Attempt, StepFailure> {
@@ -116,7 +116,7 @@ impl<const D: usize> Explicit<D> {
 
     /// The largest defect of all components before closing; an error unless it is small, or rounding.
     #[inline]
-    fn correction(&mut self, view: &ExplicitView<'_, D>, limit: f64) -> Result<f64, StepFailure> {
+    fn correction(&mut self, view: &View<'_>, limit: f64) -> Result<f64, StepFailure> {
         let mut largest = 0.0_f64;
         for index in 0..self.scratch.progress.len() {
             let progress = &self.scratch.progress[index];

@@ -1,6 +1,6 @@
 //! The bodies of a scene of any dimension, for what is not worth being compiled for each.
 
-use super::view::{ExplicitView, View};
+use super::view::View;
 use crate::element::group::{ExplicitGroup, Place, Stiffness, points};
 use crate::element::handle::{Element, Node};
 use crate::scene::loads::TemperatureCourse;
@@ -54,7 +54,7 @@ pub(super) trait Bodies {
 pub(super) struct BodiesIn<'a, const D: usize> {
     pub(super) places: &'a [Place<D>],
     pub(super) groups: &'a [Box<dyn ExplicitGroup<D>>],
-    pub(super) view: &'a ExplicitView<'a, D>,
+    pub(super) view: &'a View<'a>,
 }
 
 impl<const D: usize> Bodies for BodiesIn<'_, D> {
@@ -95,7 +95,7 @@ impl<const D: usize> Bodies for BodiesIn<'_, D> {
     fn find_rounding(&self, rounding: &mut LoadRounding) {
         let View {
             step, state, least, ..
-        } = self.view.view;
+        } = *self.view;
         rounding.find(self.view.loads, least, [state.time.value, step]);
     }
 

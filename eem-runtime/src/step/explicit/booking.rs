@@ -6,7 +6,7 @@ use super::components::Support;
 use super::guard::{PathRates, guarded, mean_drop};
 use super::memory::momenta_of;
 use super::thermostats::shift_weights;
-use super::{Explicit, ExplicitView};
+use super::{Explicit, View};
 use crate::algebra::{add, difference, dot, scaled};
 use crate::element::state::State;
 use eem_material::number::scalar::Scalar;
@@ -149,7 +149,7 @@ impl Accounts {
 impl<const D: usize> Explicit<D> {
     /// Entropies, books and targets at the end of the step, before it is closed.
     #[inline]
-    pub(super) fn book(&mut self, view: &ExplicitView<'_, D>, next: &mut State) {
+    pub(super) fn book(&mut self, view: &View<'_>, next: &mut State) {
         next.copy_books(view.state);
         next.time.add(view.step);
         next.entropies.copy_from(&view.state.entropies);

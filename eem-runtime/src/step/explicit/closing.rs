@@ -24,7 +24,7 @@ mod shape;
 
 use super::accounts::Accounts;
 use super::demand::{Demand, Scales};
-use super::{Explicit, ExplicitView};
+use super::{Explicit, View};
 use crate::element::error::StateError;
 use crate::element::group::{ClosingView, ComponentEnergy};
 use crate::element::state::State;
@@ -72,7 +72,7 @@ impl<const D: usize> Explicit<D> {
     #[inline]
     pub(super) fn close(
         &mut self,
-        view: &ExplicitView<'_, D>,
+        view: &View<'_>,
         (demand, scales): (Demand, Scales),
         next: &mut State,
     ) -> Result<(), StepFailure> {
@@ -110,11 +110,7 @@ impl<const D: usize> Explicit<D> {
 
     /// Finds temperatures and energies of the elements of open components, and the heat of their thermostats.
     #[inline]
-    fn find_energies(
-        &mut self,
-        explicit: &ExplicitView<'_, D>,
-        next: &mut State,
-    ) -> Result<(), StateError> {
+    fn find_energies(&mut self, explicit: &View<'_>, next: &mut State) -> Result<(), StateError> {
         let scratch = &mut self.accounts.scratch;
         for (energy, &is_open) in scratch.energies.iter_mut().zip(&scratch.open) {
             if is_open {

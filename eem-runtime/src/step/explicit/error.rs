@@ -5,7 +5,7 @@ use super::bodies::{Bodies, Seen};
 use super::demand::Scales;
 use super::stages::{combined, errors};
 use super::tableau::{ERROR_3, ERROR_5, WEIGHTS};
-use super::{Explicit, ExplicitView, View};
+use super::{Explicit, View};
 use crate::algebra::{dot, length, norm, vector};
 use crate::element::state::State;
 use crate::step::control::{ROUNDINGS, Step, Tolerance, Unknown, UnknownError, see_worst};
@@ -293,7 +293,7 @@ impl<const D: usize> Explicit<D> {
     /// Goes to the end of a step before it is closed; returns the magnitudes there.
     pub(super) fn approach(
         &mut self,
-        view: &ExplicitView<'_, D>,
+        view: &View<'_>,
         next: &mut State,
     ) -> Result<Scales, StepFailure> {
         self.begin(view, next)?;
@@ -329,7 +329,7 @@ impl<const D: usize> Explicit<D> {
     /// with the scales of a [`Tolerance`]: |q| of all nodes, anchors among them, for positions; |λ| of the springs with dashpots for
     /// viscous stretches, the largest |p| so far for momenta, and θ. What rounding explains of each e₅ is none; that is found only
     /// where it could make the next step longer.
-    pub(super) fn estimate(&mut self, by: &Measure<'_>, view: &ExplicitView<'_, D>) -> f64 {
+    pub(super) fn estimate(&mut self, by: &Measure<'_>, view: &View<'_>) -> f64 {
         let (mut sums, h, least) = ([0.0; 2], view.step, view.least);
         let (all, step) = (by.scales.momentum, by.step());
         let position = per(by.position());
@@ -359,7 +359,7 @@ impl<const D: usize> Explicit<D> {
     #[cold]
     pub(crate) fn worst_error(
         &mut self,
-        view: &ExplicitView<'_, D>,
+        view: &View<'_>,
         tolerance: &Tolerance,
         next: &mut State,
     ) -> Result<Option<UnknownError>, StepFailure> {

@@ -7,7 +7,7 @@ use super::bodies::Bodies;
 use super::closing::FROZEN;
 use super::components::Support;
 use super::memory::momenta_of;
-use super::{Explicit, ExplicitView};
+use super::{Explicit, View};
 use crate::algebra::{dot, largest};
 use crate::element::group::UnkeptEntropy;
 use crate::step::certificate::is_wide;
@@ -119,7 +119,7 @@ impl<const D: usize> Explicit<D> {
     pub(super) fn prove(
         &mut self,
         correction: f64,
-        view: &ExplicitView<'_, D>,
+        view: &View<'_>,
     ) -> Result<Outcome, StepFailure> {
         let time = view.end();
         if let Some(UnkeptEntropy { element, sizes }) = self.scratch.unkept {

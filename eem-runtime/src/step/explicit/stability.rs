@@ -5,7 +5,7 @@ use super::bodies::Bodies;
 use super::components::Path;
 use super::memory::RowSums;
 use super::tableau::{IMAGINARY_LIMIT, REAL_LIMIT};
-use super::{Explicit, ExplicitView, View};
+use super::{Explicit, View};
 use crate::algebra::largest;
 use crate::element::error::StateError;
 use crate::step::error::StepFailure;
@@ -120,7 +120,7 @@ impl Accounts {
 
 impl<const D: usize> Explicit<D> {
     /// The step as a fraction of the longest stable one.
-    pub(crate) fn share_of_stable_step(&mut self, view: &ExplicitView<'_, D>) -> f64 {
+    pub(crate) fn share_of_stable_step(&mut self, view: &View<'_>) -> f64 {
         let (accounts, bodies) = self.parts(view);
         let rates = accounts.fastest(&bodies);
         let mut largest = 0.0_f64;

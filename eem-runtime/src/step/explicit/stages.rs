@@ -5,7 +5,7 @@ use super::tableau::{
     ERROR_3, ERROR_5, ROW_1, ROW_2, ROW_3, ROW_4, ROW_5, ROW_6, ROW_7, ROW_8, ROW_9, ROW_10,
     ROW_11, STAGES, TIMES, WEIGHTED, WEIGHTS,
 };
-use super::{Explicit, ExplicitView};
+use super::{Explicit, View};
 use crate::element::error::StateError;
 use crate::element::group::{Combination, Past, Stage};
 use crate::step::error::StepFailure;
@@ -94,10 +94,7 @@ impl Accounts {
 
 impl<const D: usize> Explicit<D> {
     /// Goes through all stages to the end of the step, before it is closed.
-    pub(super) fn go_through_stages(
-        &mut self,
-        view: &ExplicitView<'_, D>,
-    ) -> Result<(), StepFailure> {
+    pub(super) fn go_through_stages(&mut self, view: &View<'_>) -> Result<(), StepFailure> {
         self.stage(view, 1, (&[0], &ROW_1))?;
         self.stage(view, 2, (&[0, 1], &ROW_2))?;
         self.stage(view, 3, (&[0, 2], &ROW_3))?;
@@ -124,7 +121,7 @@ impl<const D: usize> Explicit<D> {
     )]
     fn stage(
         &mut self,
-        view: &ExplicitView<'_, D>,
+        view: &View<'_>,
         stage: usize,
         terms: Combination<'_>,
     ) -> Result<(), StepFailure> {
@@ -151,7 +148,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Sets what is prescribed at a stage, and the loads.
-    fn drive(&mut self, view: &ExplicitView<'_, D>, stage: usize) -> Result<(), StepFailure> {
+    fn drive(&mut self, view: &View<'_>, stage: usize) -> Result<(), StepFailure> {
         self.move_to(stage);
         let share = TIMES[stage];
         self.evaluate_loads(view, view.state.time.value + share * view.step)
@@ -159,11 +156,7 @@ impl<const D: usize> Explicit<D> {
 
     /// Initialises the forces on masses with loads and weights, at a time if they depend on it.
     #[inline]
-    pub(super) fn evaluate_loads(
-        &mut self,
-        view: &ExplicitView<'_, D>,
-        time: f64,
-    ) -> Result<(), StepFailure> {
+    pub(super) fn evaluate_loads(&mut self, view: &View<'_>, time: f64) -> Result<(), StepFailure> {
         if !self.loads.has_total_force() {
             return Ok(());
         }

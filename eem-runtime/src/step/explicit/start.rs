@@ -5,7 +5,7 @@ use super::components::Support;
 use super::memory::momenta_of;
 use super::outside::copy_loads;
 use super::tableau::WEIGHTS;
-use super::{Explicit, ExplicitView};
+use super::{Explicit, View};
 use crate::element::group::{ComponentEnergy, points};
 use crate::element::state::State;
 use crate::step::error::StepFailure;
@@ -77,11 +77,7 @@ impl Accounts {
 impl<const D: usize> Explicit<D> {
     /// Sets the stage and the sums to the start of a step, and begins its integrals.
     #[inline]
-    pub(super) fn begin(
-        &mut self,
-        view: &ExplicitView<'_, D>,
-        next: &mut State,
-    ) -> Result<(), StepFailure> {
+    pub(super) fn begin(&mut self, view: &View<'_>, next: &mut State) -> Result<(), StepFailure> {
         if self.has_left || !self.is_ready {
             self.return_to(view, next)?;
         }
@@ -94,11 +90,7 @@ impl<const D: usize> Explicit<D> {
 
     /// Takes the variables of a state, the constant forces of its loads, and its rates and targets.
     #[cold]
-    fn return_to(
-        &mut self,
-        view: &ExplicitView<'_, D>,
-        next: &mut State,
-    ) -> Result<(), StepFailure> {
+    fn return_to(&mut self, view: &View<'_>, next: &mut State) -> Result<(), StepFailure> {
         let (state, start) = (view.state, view.state.time.value);
         // Steps write only variables that change; all others are equal in both states from now on.
         next.copy_from(state);

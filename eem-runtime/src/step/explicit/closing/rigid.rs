@@ -2,7 +2,7 @@
 
 use super::super::accounts::Accounts;
 use super::super::demand::{Demand, Scales};
-use super::super::{Explicit, ExplicitView};
+use super::super::{Explicit, View};
 use super::momenta::Rigid;
 use crate::algebra::bivector::Bivector;
 use crate::algebra::{add, difference, hypot};
@@ -86,7 +86,7 @@ impl<const D: usize> Explicit<D> {
     pub(super) fn turn_rigidly(
         &mut self,
         index: usize,
-        (view, demand, scales): (&ExplicitView<'_, D>, Demand, Scales),
+        (view, demand, scales): (&View<'_>, Demand, Scales),
         next: &mut State,
     ) -> Result<(), StepFailure> {
         let largest = demand.largest_turn();

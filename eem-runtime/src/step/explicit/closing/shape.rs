@@ -3,7 +3,7 @@
 use super::super::accounts::Accounts;
 use super::super::components::Support;
 use super::super::demand::Demand;
-use super::super::{Explicit, ExplicitView};
+use super::super::{Explicit, View};
 use super::momenta::Rigid;
 use super::{MOST_ITERATIONS, Status};
 use crate::algebra::{add, dot};
@@ -148,7 +148,7 @@ impl<const D: usize> Explicit<D> {
     pub(super) fn reshape(
         &mut self,
         index: usize,
-        (view, demand): (&ExplicitView<'_, D>, Demand),
+        (view, demand): (&View<'_>, Demand),
         next: &mut State,
     ) -> Status {
         self.scratch.progress[index].present = None;
@@ -196,7 +196,7 @@ impl<const D: usize> Explicit<D> {
         accounts.unless_rounding(&bodies, index)
     }
 
-    fn means(&self, index: usize, view: &ExplicitView<'_, D>) -> Means<D> {
+    fn means(&self, index: usize, view: &View<'_>) -> Means<D> {
         let (component, h) = (&self.components.all[index], view.step);
         let rigid = self.rigid(index);
         let forces = points::<D>(&self.scratch.forces);
@@ -251,7 +251,7 @@ impl<const D: usize> Explicit<D> {
     fn shift(
         &mut self,
         index: usize,
-        (view, means): (&ExplicitView<'_, D>, &Means<D>),
+        (view, means): (&View<'_>, &Means<D>),
         share: f64,
         next: &mut State,
     ) {
