@@ -115,7 +115,6 @@ impl<const D: usize> Search<'_, D> {
     /// Solves the system of an iteration and applies its solution. Returns the largest scaled update.
     #[inline]
     fn iterate(&mut self, effort: &mut Effort) -> Result<f64, StepFailure> {
-        self.solver.final_residual = self.solver.residual();
         self.solver.factors.solve(&mut self.solver.tangent)?;
         let update = self.correct();
         effort.note(self.solver.final_residual, update);

@@ -12,15 +12,16 @@ use eem_material::number::scalar::Scalar;
 
 impl<const D: usize> Search<'_, D> {
     /// Applies the solution and the local corrections that follow from it to the trial state, and starts the next system
-    /// there. Returns the largest scaled update.
+    /// there. Finds the largest entry of R before, and returns the largest scaled update.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "see `Search::begin`")]
     pub(super) fn correct(&mut self) -> f64 {
         let (values, right, solution) = self.solver.tangent.renew();
         let trial = &mut self.solver.trial;
-        let mut largest = Largest::default();
+        let (mut largest, mut residual) = (Largest::default(), Largest::default());
         for node in &self.solver.nodes {
             let at = node.in_trial;
+            residual.see_all(node.rows(right));
             let change = node.rows(solution);
             let (mut displacement, mut rest) = (trial.displacements[at], trial.carries[at]);
             // Entry by entry, as the solution was stored: a wider load would stall.
@@ -38,6 +39,7 @@ impl<const D: usize> Search<'_, D> {
             largest.see(change / trial.interface.values()[in_trial]);
             trial.interface.add(in_trial, change);
         }
+        self.solver.final_residual = residual.found();
         self.solver.couple(self.view);
         for group in &mut *self.groups {
             largest.see(group.correct(self.solver.tangent.solution()));
