@@ -254,8 +254,9 @@ where
         x: &M::Variables,
         [entropy, guess, enough]: [f64; 3],
     ) -> Result<f64, InversionError> {
-        let caloric_at = FreeEnergy::caloric_at(self, *x);
-        let found = temperature_near(|theta| (caloric_at(theta).0, []), entropy, guess, enough);
+        let at_theta = FreeEnergy::caloric_at(self, *x);
+        let caloric_at = |theta| (at_theta(theta).0, []);
+        let found = temperature_near((guess, caloric_at(guess)), caloric_at, entropy, enough);
         found.map(|(theta, [])| theta)
     }
 

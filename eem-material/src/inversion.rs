@@ -74,12 +74,13 @@ pub fn invert(
         return Err(InversionError::InvalidStart { start });
     }
     let mut evaluations = 0;
-    let counted = |theta| {
+    let mut counted = |theta| {
         evaluations += 1;
         (evaluate(theta), [])
     };
+    let at_start = (start, counted(start));
     let enough = ENOUGH * f64::EPSILON;
-    let (temperature, _) = temperature_near(counted, entropy, start, enough)?;
+    let (temperature, _) = temperature_near(at_start, counted, entropy, enough)?;
     Ok(Inversion {
         temperature,
         evaluations,
@@ -95,8 +96,8 @@ const ENTROPY_ROUNDINGS: f64 = 4.0;
 /// Newton's method continues while a correction is at most this fraction of the one before.
 const CONTRACTION: f64 = 0.25;
 
-/// Newton's method in ln θ from a temperature near the solution, `θ ← θ e^((s − S)/C)`; also returns the other values
-/// evaluated at the last temperature.
+/// Newton's method in ln θ from a temperature near the solution, `θ ← θ e^((s − S)/C)`, at which the caloric quantities are given;
+/// also returns the other values evaluated at the last temperature.
 ///
 /// Where it does not contract, a search starts again from the first temperature, and finds the solution
 /// from anywhere on the same stable branch.
@@ -108,15 +109,15 @@ const CONTRACTION: f64 = 0.25;
 /// As [`invert`].
 #[inline]
 pub fn temperature_near<const W: usize>(
+    (guess, mut at_theta): (f64, (Caloric<f64>, [f64; W])),
     mut caloric_at: impl FnMut(f64) -> (Caloric<f64>, [f64; W]),
     entropy: f64,
-    guess: f64,
     enough: f64,
 ) -> Result<(f64, [f64; W]), InversionError> {
     let mut limit = LARGEST_CORRECTION;
     let mut theta = guess;
     loop {
-        let (caloric, other) = caloric_at(theta);
+        let (caloric, other) = at_theta;
         let defect = entropy - caloric.entropy;
         let correction = defect / caloric.heat_capacity;
         let size = correction.abs();
@@ -135,6 +136,7 @@ pub fn temperature_near<const W: usize>(
             return Ok((theta + theta * correction, other));
         }
         theta *= Scalar::exp(correction);
+        at_theta = caloric_at(theta);
         limit = CONTRACTION * size;
     }
 }

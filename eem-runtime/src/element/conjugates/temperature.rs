@@ -33,7 +33,8 @@ pub(crate) fn temperature_of(
     entropy: f64,
     guess: f64,
 ) -> Result<f64, Infeasible> {
-    let found = near(|theta| (caloric_at(theta).0, []), entropy, guess, enough())?;
+    let caloric_at = |theta| (caloric_at(theta).0, []);
+    let found = near((guess, caloric_at(guess)), caloric_at, entropy, enough())?;
     Ok(found.0)
 }
 
@@ -54,7 +55,7 @@ pub(crate) struct Recovered {
     pub(crate) energy: Energy,
 }
 
-/// θ̂ and the energies of a state that is stored. The last correction of ln θ is at most ε^¾: the error left, half
+/// θ̂ and the energies of a state that is stored, from a guess at which they are given. The last correction of ln θ is at most ε^¾: the error left, half
 /// its square times d ln C/d ln θ, is far below a rounding of the entropy. `ψ + θ s` is stationary in θ
 /// at fixed s, so that it may be that of the last temperature that was tried.
 #[expect(
@@ -63,18 +64,19 @@ pub(crate) struct Recovered {
 )]
 #[inline(always)]
 pub(crate) fn recovered_at(
-    mut energy_at: impl FnMut(f64) -> (Caloric<f64>, f64),
+    (guess, at_guess): (f64, (Caloric<f64>, f64)),
+    energy_at: impl Fn(f64) -> (Caloric<f64>, f64),
     entropy: f64,
-    guess: f64,
 ) -> Result<Recovered, Infeasible> {
     let root = f64::EPSILON.sqrt();
-    let with_energy = |theta: f64| {
-        let (caloric, psi) = energy_at(theta);
+    let of_energy = |theta: f64, (caloric, psi): (Caloric<f64>, f64)| {
         let of_energy = [psi, theta, caloric.heat_capacity, caloric.magnitude];
         (caloric, of_energy)
     };
+    let start = (guess, of_energy(guess, at_guess));
+    let with_energy = |theta| of_energy(theta, energy_at(theta));
     let (temperature, [psi, theta, heat_capacity, magnitude]) =
-        near(with_energy, entropy, guess, root * root.sqrt())?;
+        near(start, with_energy, entropy, root * root.sqrt())?;
     let caloric = Caloric {
         entropy,
         heat_capacity,
@@ -90,11 +92,11 @@ pub(crate) fn recovered_at(
 /// θ̂, and what else was evaluated at the last temperature that was tried.
 #[inline]
 fn near<const W: usize>(
+    start: (f64, (Caloric<f64>, [f64; W])),
     caloric_at: impl FnMut(f64) -> (Caloric<f64>, [f64; W]),
     entropy: f64,
-    guess: f64,
     enough: f64,
 ) -> Result<(f64, [f64; W]), Infeasible> {
-    temperature_near(caloric_at, entropy, guess, enough)
+    temperature_near(start, caloric_at, entropy, enough)
         .map_err(|source| Infeasible::Entropy { entropy, source })
 }

@@ -41,13 +41,8 @@ impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
             // The guess from the trial is good: usually one evaluation is enough.
             let entropy = state.entropies.values()[slot];
             let energy_at = |theta: f64| self.model.caloric_at(&x, theta);
-            let mut known = known;
-            let energy_at = |theta| {
-                known
-                    .take()
-                    .map_or_else(|| energy_at(theta), |known| *known)
-            };
-            let found = recovered_at(energy_at, entropy, near);
+            let at_guess = known.map_or_else(|| energy_at(near), |known| *known);
+            let found = recovered_at((near, at_guess), energy_at, entropy);
             let found = found.map_err(|infeasible| infeasible.of(self.element))?;
             check_temperature(self.element, found.temperature)?;
             state.temperatures[slot] = found.temperature;

@@ -122,7 +122,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
         // ε^¾, as in the implicit schemes.
         let root = f64::EPSILON.sqrt();
         let enough = root * root.sqrt();
-        let found = temperature_near(|theta| (caloric_at(theta).0, []), entropy, guess, enough);
+        let caloric_at = |theta| (caloric_at(theta).0, []);
+        let found = temperature_near((guess, caloric_at(guess)), caloric_at, entropy, enough);
         let (theta, []) =
             found.map_err(|source| Infeasible::Entropy { entropy, source }.of(self.element))?;
         let (rates, values) = at(theta);
